@@ -384,9 +384,10 @@ void read_scene(Reader& in, Scene& s) {
             p.material = material(), p.a = v[0];
             p.first = static_cast<int>(s.vertices.size()), p.count = static_cast<int>(v.size());
             Vec area = area_vector(v), corner = cross(v[1] - v[0], v[2] - v[1]);
-            if (no_area(area, v)) { ++s.dropped; continue; }
             // The first three vertices may lie on a line: then the whole polygon says where its front is.
-            p.g = unit(no_area(corner, {v[0], v[1], v[2]}) ? area : corner);
+            if (no_area(corner, {v[0], v[1], v[2]})) corner = area;
+            if (no_area(corner, v)) { ++s.dropped; continue; }
+            p.g = unit(corner);
             s.vertices.insert(s.vertices.end(), v.begin(), v.end());
             s.normals.resize(s.vertices.size());
             s.prims.push_back(p);
@@ -877,8 +878,10 @@ int main(int argc, char** argv) {
             for (int i = 0; i < s.width; ++i) {
                 Vec c = pixel(s, set, cam, i, j);
                 size_t at = 3 * static_cast<size_t>(j * s.width + i);
-                for (int k = 0; k < 3; ++k)
-                    bytes[at + static_cast<size_t>(k)] = static_cast<uint8_t>(floor_of(255 * c[k] + Real(0.5)));
+                for (int k = 0; k < 3; ++k) {
+                    Real level = floor_of(255 * c[k] + Real(0.5));
+                    bytes[at + static_cast<size_t>(k)] = static_cast<uint8_t>(level);
+                }
             }
     };
     std::vector<std::thread> pool;
