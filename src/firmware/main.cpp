@@ -1,0 +1,36 @@
+// Draws one picture and ends: the compiled scene QRAY_SCENE_HEADER, or, without one, the test card. The same
+// on every board and for every way out; src/boards gives both.
+#include "boards/common/board.hpp"
+#include "firmware/ppm.hpp"
+
+#ifdef QRAY_SCENE_HEADER
+#include <qray/qray.hpp>
+
+#include QRAY_SCENE_HEADER
+#else
+#include "firmware/test_card.hpp"
+#endif
+
+int main()
+{
+    static uint8_t row[3 * scene::width];
+    static constexpr auto header = ppm_header<scene::width, scene::height>();
+    if (!board::open_picture(header.text, header.size))
+        return 1;
+    const auto sink = [](uint32_t, uint32_t, const uint8_t* rgb, uint32_t bytes) {
+        return board::write_picture(rgb, bytes);
+    };
+#ifndef QRAY_SCENE_HEADER
+    const bool whole = test_card::render(row, sink);
+#elif !defined(QRAY_COUNT_RAYS)
+    const bool whole = qray::render<qray::Rgb888>(scene::scene, row, 1, sink);
+#else
+    uint64_t rays = 0;
+    auto count = [&rays](qray::RayKind) { ++rays; };
+    const bool whole = qray::render<qray::Rgb888>(scene::scene, row, 1, sink, count);
+    board::say("rays: ");
+    board::say_decimal(rays);
+    board::say("\n");
+#endif
+    return whole && board::close_picture() ? 0 : 1;
+}
