@@ -1,0 +1,95 @@
+# Firmware: one board, one scene, one picture. Included by the top-level Makefile; see README.md here.
+#   make run BOARD=microbit SCENE=scenes/x.nff NUMBER=q32      build, run in QEMU, measure
+#   make size BOARD=... SCENE=... NUMBER=...                   build, and report what is known without running
+# Optional: SIZE=WxH SAMPLES=N ADAPTIVE=LEVELS[,THRESHOLD] DEPTH=N CUTOFF=W, NAME= of the outputs,
+# OUTPUT=uart (the image for a real board), RAYS=no (do not build and run the image that counts rays).
+# Without SCENE, the board draws its test card.
+ifdef BOARD
+FW_SRC := src/boards
+ifeq ($(wildcard $(FW_SRC)/$(BOARD)/board.mk),)
+$(error there is no board $(BOARD); boards are: \
+    $(filter-out common,$(patsubst $(FW_SRC)/%/board.mk,%,$(wildcard $(FW_SRC)/*/board.mk))))
+endif
+include $(FW_SRC)/$(BOARD)/board.mk
+
+NUMBER  ?= $(if $(SCENE),q32,float)
+NAME    ?= $(if $(SCENE),$(basename $(notdir $(SCENE))),card)
+OUTPUT  ?= semihosting
+RAYS    ?= $(if $(SCENE),yes,no)
+FW_STEM := build/$(BOARD)/$(NAME)-$(NUMBER)
+FW_ELF  := $(FW_STEM)$(if $(filter uart,$(OUTPUT)),-uart).elf
+FW_OBJ  := $(FW_ELF:.elf=.obj)
+FW_MAIN ?= src/firmware/main.cpp
+
+FW_SIZE     := $(subst x, ,$(SIZE))
+FW_OPTIONS  := -n $(NUMBER) $(if $(SIZE),-s $(SIZE)) $(if $(SAMPLES),-r $(SAMPLES)) \
+    $(if $(ADAPTIVE),-a $(ADAPTIVE)) $(if $(DEPTH),-d $(DEPTH)) $(if $(CUTOFF),--cutoff $(CUTOFF))
+FW_DEFINES  := $(if $(SCENE),-DQRAY_SCENE_HEADER='"$(notdir $(FW_STEM)).hpp"',\
+    $(if $(SIZE),-DQRAY_WIDTH=$(word 1,$(FW_SIZE)) -DQRAY_HEIGHT=$(word 2,$(FW_SIZE))))
+FW_WARNINGS := -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Werror
+FW_FLAGS    := -std=c++20 $(BOARD_CPU) $(BOARD_OPTIMISE) -g $(FW_WARNINGS) -Iinclude -Isrc -Ibuild/$(BOARD) \
+    -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-unwind-tables \
+    -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -ffp-contract=off \
+    -fstack-usage -fcallgraph-info=su $(FW_EXTRA)
+FW_LINK     := $(BOARD_CPU) -nostdlib -Wl,--gc-sections,--fatal-warnings \
+    -L$(FW_SRC)/common -T $(FW_SRC)/$(BOARD)/board.ld
+
+FW_COMMON := start memory $(BOARD_CORE) host_fault host_text
+FW_OBJS   := $(addprefix $(FW_OBJ)/,$(addsuffix .o,$(FW_COMMON) \
+    $(if $(filter uart,$(OUTPUT)),output_uart $(BOARD_UART),host_semihosting $(BOARD_COUNTER))))
+FW_COUNT  := $(if $(filter-out uart,$(OUTPUT)),$(if $(filter yes,$(RAYS)),$(FW_STEM)-rays.elf))
+FW_REPORT  = python3 $(FW_SRC)/common/run.py --tools $(BOARD_TOOLS) --tick $(BOARD_TICK) $(FW_ELF)
+
+# What the outputs were made with: a change of options remakes them.
+FW_CONFIG := $(SCENE) $(FW_OPTIONS) $(FW_DEFINES) $(FW_FLAGS) $(FW_MAIN)
+$(FW_OBJ)/config: FORCE
+	@mkdir -p $(@D)
+	@printf '%s\n' '$(subst ','\'',$(FW_CONFIG))' | cmp -s - $@ || \
+	    printf '%s\n' '$(subst ','\'',$(FW_CONFIG))' > $@
+
+ifneq ($(SCENE),)
+$(FW_STEM).hpp: $(SCENE) build/qray $(FW_OBJ)/config
+	@build/qray compile $(SCENE) $(FW_OPTIONS) -o $@
+$(FW_OBJ)/main.o $(FW_OBJ)/main-rays.o: $(FW_STEM).hpp
+endif
+
+$(FW_OBJ)/main.o: $(FW_MAIN) $(FW_OBJ)/config | firmware-tools
+	@$(BOARD_TOOLS)g++ $(FW_FLAGS) $(FW_DEFINES) -MMD -MP -c $< -o $@
+$(FW_OBJ)/main-rays.o: $(FW_MAIN) $(FW_OBJ)/config | firmware-tools
+	@$(BOARD_TOOLS)g++ $(FW_FLAGS) $(FW_DEFINES) -DQRAY_COUNT_RAYS -MMD -MP -c $< -o $@
+$(FW_OBJ)/%.o: $(FW_SRC)/common/%.cpp $(FW_OBJ)/config | firmware-tools
+	@$(BOARD_TOOLS)g++ $(FW_FLAGS) -MMD -MP -c $< -o $@
+$(FW_OBJ)/memory.o: FW_FLAGS += -fno-tree-loop-distribute-patterns
+
+FW_SCRIPTS := $(FW_SRC)/$(BOARD)/board.ld $(FW_SRC)/common/sections.ld
+$(FW_ELF): $(FW_OBJ)/main.o $(FW_OBJS) $(FW_SCRIPTS)
+	@$(BOARD_TOOLS)g++ $(FW_LINK) -Wl,-Map=$(@:.elf=.map) $(filter %.o,$^) -lgcc -o $@
+$(FW_STEM)-rays.elf: $(FW_OBJ)/main-rays.o $(FW_OBJS) $(FW_SCRIPTS)
+	@$(BOARD_TOOLS)g++ $(FW_LINK) $(filter %.o,$^) -lgcc -o $@
+$(FW_ELF:.elf=.hex): $(FW_ELF)
+	@$(BOARD_TOOLS)objcopy -O ihex $< $@
+
+run: $(FW_ELF) $(FW_COUNT) $(if $(filter uart,$(OUTPUT)),$(FW_ELF:.elf=.hex)) | firmware-qemu
+	@$(FW_REPORT) --qemu '$(BOARD_QEMU)' $(if $(filter uart,$(OUTPUT)),--uart) \
+	    $(if $(FW_COUNT),--rays $(FW_COUNT)) --picture $(FW_STEM).ppm
+size: $(FW_ELF)
+	@$(FW_REPORT)
+
+firmware-package = $(if $(filter arm%,$(BOARD_TOOLS)),gcc-arm-none-eabi,gcc-riscv64-unknown-elf)
+firmware-need = @command -v $(1) > /dev/null || \
+    { echo "BOARD=$(BOARD) needs $(1): apt-get install $(2)" >&2; exit 1; }
+firmware-tools:
+	$(call firmware-need,$(BOARD_TOOLS)g++,$(firmware-package))
+	$(call firmware-need,python3,python3)
+firmware-qemu:
+	$(call firmware-need,$(firstword $(BOARD_QEMU)),$(if $(filter %arm,$(firstword $(BOARD_QEMU))),\
+	    qemu-system-arm,qemu-system-misc))
+FORCE:
+-include $(wildcard $(FW_OBJ)/*.d)
+else
+run size:
+	@echo "usage: make $@ BOARD=board SCENE=scenes/x.nff NUMBER=q32 [SIZE=64x48] [SAMPLES=4] [ADAPTIVE=2]" >&2
+	@echo "boards: $(patsubst src/boards/%/board.mk,%,$(wildcard src/boards/*/board.mk))" >&2
+	@exit 2
+endif
+.PHONY: run size firmware-tools firmware-qemu FORCE
