@@ -1,7 +1,8 @@
 // qray/base.hpp: what depends on the compiler or the processor, and nothing else.
 //
-// Integer products wider than a register, count of leading zeros, correctly rounded square roots
-// of binary32 and binary64, inlining. Every function gives the same bits on every target.
+// Integer products wider than a register, count of leading zeros, correctly rounded square roots of
+// binary32 and binary64, inlining. Every function gives the same bits on every target, in a constant
+// expression too. All are total: no argument is forbidden, except where wide_dot says so.
 #ifndef QRAY_BASE_HPP
 #define QRAY_BASE_HPP
 
@@ -11,41 +12,207 @@
 #define QRAY_INLINE inline __attribute__((always_inline))
 #define QRAY_NOINLINE __attribute__((noinline))
 
+// ARMv6-M multiplies 32 by 32 bits to 32 bits only; the library's 64-bit product takes 48 instructions.
+#if defined(__ARM_ARCH_6M__) && defined(__thumb__)
+#define QRAY_NARROW_MULTIPLY 1
+#else
+#define QRAY_NARROW_MULTIPLY 0
+#endif
+
+// Without an instruction for it, the compiler calls a library function with a table of 256 bytes.
+#if defined(__ARM_ARCH_6M__) || (defined(__riscv) && !defined(__riscv_zbb))
+#define QRAY_SOFT_CLZ 1
+#else
+#define QRAY_SOFT_CLZ 0
+#endif
+
 namespace qray {
 
-// Leading zero bits; 32 (64) for 0.
+// False where a 32 x 32 -> 64 bit product takes some 18 instructions rather than one or two.
+inline constexpr bool has_wide_multiply = !QRAY_NARROW_MULTIPLY;
+
+namespace detail {
+
+// Hacker's Delight (Warren), section 5-3.
+constexpr int soft_clz(uint32_t x)
+{
+    int n = 32;
+    uint32_t high = x >> 16;
+    if (high != 0) {
+        n -= 16;
+        x = high;
+    }
+    high = x >> 8;
+    if (high != 0) {
+        n -= 8;
+        x = high;
+    }
+    high = x >> 4;
+    if (high != 0) {
+        n -= 4;
+        x = high;
+    }
+    high = x >> 2;
+    if (high != 0) {
+        n -= 2;
+        x = high;
+    }
+    return x > 1 ? n - 2 : n - static_cast<int>(x);
+}
+
+}  // namespace detail
+
+// Leading zero bits; 32 for 0.
 constexpr int count_leading_zeros(uint32_t x)
 {
+#if QRAY_SOFT_CLZ
+    return detail::soft_clz(x);
+#else
     return x == 0 ? 32 : __builtin_clz(x);
+#endif
 }
 
+// Leading zero bits; 64 for 0.
 constexpr int count_leading_zeros(uint64_t x)
 {
-    return x == 0 ? 64 : __builtin_clzll(x);
+    if constexpr (sizeof(void*) == 8)
+        return x == 0 ? 64 : __builtin_clzll(x);
+    uint32_t top = static_cast<uint32_t>(x >> 32);
+    int above = 0;
+    if (top == 0) {
+        top = static_cast<uint32_t>(x);
+        above = 32;
+    }
+    return above + count_leading_zeros(top);
 }
 
-// Exact products.
+// a * b, exact.
 constexpr int64_t wide_mul(int32_t a, int32_t b)
 {
+#if QRAY_NARROW_MULTIPLY
+    // a = ah 2^16 + al, b likewise; q = ah bl + (al bl >> 16) and r = al bh + (q mod 2^16) both fit
+    // 32 bits, and the upper half is ah bh + (q >> 16) + (r >> 16). The lower half is one product.
+    if (!__builtin_is_constant_evaluated()) {
+        int32_t low = a;
+        int32_t high = b;
+        int32_t al, ah, bl, t;
+        __asm__(".syntax unified\n\t"
+                "uxth %[al], %[a]\n\t"
+                "asrs %[ah], %[a], #16\n\t"
+                "muls %[a], %[b]\n\t"
+                "uxth %[bl], %[b]\n\t"
+                "asrs %[b], %[b], #16\n\t"
+                "movs %[t], %[al]\n\t"
+                "muls %[t], %[bl]\n\t"
+                "lsrs %[t], %[t], #16\n\t"
+                "muls %[bl], %[ah]\n\t"
+                "adds %[bl], %[bl], %[t]\n\t"
+                "muls %[ah], %[b]\n\t"
+                "muls %[al], %[b]\n\t"
+                "uxth %[b], %[bl]\n\t"
+                "adds %[al], %[al], %[b]\n\t"
+                "asrs %[al], %[al], #16\n\t"
+                "asrs %[bl], %[bl], #16\n\t"
+                "adds %[ah], %[ah], %[al]\n\t"
+                "adds %[b], %[ah], %[bl]\n\t"
+                : [a] "+l"(low), [b] "+l"(high), [al] "=&l"(al), [ah] "=&l"(ah), [bl] "=&l"(bl), [t] "=&l"(t)
+                :
+                : "cc");
+        return static_cast<int64_t>(static_cast<uint64_t>(static_cast<uint32_t>(high)) << 32
+                                    | static_cast<uint32_t>(low));
+    }
+#endif
     return int64_t{a} * b;
 }
 
+constexpr uint32_t mul_high(uint32_t a, uint32_t b);
+
+// a * b, exact.
 constexpr uint64_t wide_mul(uint32_t a, uint32_t b)
 {
+#if QRAY_NARROW_MULTIPLY
+    if (!__builtin_is_constant_evaluated())
+        return static_cast<uint64_t>(mul_high(a, b)) << 32 | a * b;
+#endif
     return uint64_t{a} * b;
 }
 
+// The upper 32 bits of a * b.
 constexpr uint32_t mul_high(uint32_t a, uint32_t b)
 {
-    return static_cast<uint32_t>(wide_mul(a, b) >> 32);
+#if QRAY_NARROW_MULTIPLY
+    if (!__builtin_is_constant_evaluated()) {
+        uint32_t al, bl, t;
+        __asm__(".syntax unified\n\t"
+                "uxth %[al], %[a]\n\t"
+                "lsrs %[a], %[a], #16\n\t"
+                "uxth %[bl], %[b]\n\t"
+                "lsrs %[b], %[b], #16\n\t"
+                "movs %[t], %[al]\n\t"
+                "muls %[t], %[bl]\n\t"
+                "lsrs %[t], %[t], #16\n\t"
+                "muls %[bl], %[a]\n\t"
+                "adds %[bl], %[bl], %[t]\n\t"
+                "muls %[a], %[b]\n\t"
+                "muls %[al], %[b]\n\t"
+                "uxth %[t], %[bl]\n\t"
+                "adds %[al], %[al], %[t]\n\t"
+                "lsrs %[al], %[al], #16\n\t"
+                "lsrs %[bl], %[bl], #16\n\t"
+                "adds %[a], %[a], %[al]\n\t"
+                "adds %[a], %[a], %[bl]\n\t"
+                : [a] "+l"(a), [b] "+l"(b), [al] "=&l"(al), [bl] "=&l"(bl), [t] "=&l"(t)
+                :
+                : "cc");
+        return a;
+    }
+#endif
+    return static_cast<uint32_t>(uint64_t{a} * b >> 32);
 }
 
+// The upper 32 bits of a * a.
+constexpr uint32_t square_high(uint32_t a)
+{
+#if QRAY_NARROW_MULTIPLY
+    // (2 ah al + (al^2 >> 16)) >> 16 without its 33rd bit; the sum below is less than 2^32.
+    uint32_t al = a & 0xffff;
+    uint32_t ah = a >> 16;
+    return ah * ah + ((ah * al + (al * al >> 17)) >> 15);
+#else
+    return static_cast<uint32_t>(uint64_t{a} * a >> 32);
+#endif
+}
+
+// a * a, exact.
 constexpr uint64_t wide_square(int32_t a)
 {
+#if QRAY_NARROW_MULTIPLY
+    if (!__builtin_is_constant_evaluated()) {
+        int32_t low = a;
+        int32_t high, al, t;
+        __asm__(".syntax unified\n\t"
+                "uxth %[al], %[a]\n\t"
+                "asrs %[h], %[a], #16\n\t"
+                "muls %[a], %[a]\n\t"
+                "movs %[t], %[al]\n\t"
+                "muls %[t], %[h]\n\t"
+                "muls %[al], %[al]\n\t"
+                "lsrs %[al], %[al], #17\n\t"
+                "adds %[t], %[t], %[al]\n\t"
+                "asrs %[t], %[t], #15\n\t"
+                "muls %[h], %[h]\n\t"
+                "adds %[h], %[h], %[t]\n\t"
+                : [a] "+l"(low), [h] "=&l"(high), [al] "=&l"(al), [t] "=&l"(t)
+                :
+                : "cc");
+        return static_cast<uint64_t>(static_cast<uint32_t>(high)) << 32 | static_cast<uint32_t>(low);
+    }
+#endif
     return static_cast<uint64_t>(int64_t{a} * a);
 }
 
-// Exact ax bx + ay by + az bz. The caller guarantees that the sum fits int64_t.
+// ax bx + ay by + az bz, exact. The caller guarantees that the sum fits int64_t (it is otherwise
+// reduced modulo 2^64); the partial sums need not.
 constexpr int64_t wide_dot(int32_t ax, int32_t ay, int32_t az, int32_t bx, int32_t by, int32_t bz)
 {
     return static_cast<int64_t>(static_cast<uint64_t>(wide_mul(ax, bx))
@@ -53,7 +220,7 @@ constexpr int64_t wide_dot(int32_t ax, int32_t ay, int32_t az, int32_t bx, int32
                                 + static_cast<uint64_t>(wide_mul(az, bz)));
 }
 
-// Exact x^2 + y^2 + z^2: at most 3 * 2^62, so it always fits.
+// x^2 + y^2 + z^2, exact: at most 3 * 2^62, so it always fits.
 constexpr uint64_t wide_norm2(int32_t x, int32_t y, int32_t z)
 {
     return wide_square(x) + wide_square(y) + wide_square(z);
@@ -61,90 +228,93 @@ constexpr uint64_t wide_norm2(int32_t x, int32_t y, int32_t z)
 
 namespace detail {
 
-// Rounded to nearest, bit by bit. The significand is never exactly between two roots.
-constexpr double sqrt_double_bits(double x)
+// Square root of binary32 or binary64 on the bits, digit by digit. Bits is its unsigned integer, of
+// which Fraction bits hold the significand. Nearest and even never differ: no root is halfway.
+template <class Bits, int Fraction>
+constexpr Bits sqrt_bits(Bits x)
 {
-    uint64_t bits = __builtin_bit_cast(uint64_t, x);
-    if (bits - 1 >= 0x7ff0000000000000u)
-        return 0.0;
-    if (bits == 0x7ff0000000000000u)
+    constexpr Bits hidden = Bits{1} << Fraction;
+    constexpr int bias = (1 << (static_cast<int>(sizeof(Bits)) * 8 - Fraction - 2)) - 1;
+    constexpr Bits infinity = static_cast<Bits>(2 * bias + 1) << Fraction;
+    if (x == 0 || x > infinity)
+        return 0;
+    if (x == infinity)
         return x;
-    int exponent = static_cast<int>(bits >> 52);
-    uint64_t m = bits & 0xfffffffffffffu;
-    if (exponent == 0) {
-        int shift = count_leading_zeros(m) - 11;
-        m <<= shift;
-        exponent = 1 - shift;
+    int exponent = static_cast<int>(x >> Fraction);
+    Bits rest = x & (hidden - 1);
+    if (exponent != 0) {
+        rest |= hidden;
     } else {
-        m |= uint64_t{1} << 52;
+        int shift = count_leading_zeros(rest) - (static_cast<int>(sizeof(Bits)) * 8 - 1 - Fraction);
+        rest <<= shift;
+        exponent = 1 - shift;
     }
-    exponent -= 1023;
-    if (exponent & 1)
-        m <<= 1;
-    exponent = (exponent - (exponent & 1)) / 2;
-    m <<= 1;
-    uint64_t root = 0;
-    uint64_t done = 0;
-    for (uint64_t bit = uint64_t{1} << 53; bit != 0; bit >>= 1) {
-        uint64_t trial = done + bit;
-        if (trial <= m) {
-            done = trial + bit;
-            m -= trial;
+    exponent += bias;
+    rest <<= 1 + (exponent & 1);
+    Bits root = 0;
+    Bits twice_root = 0;
+    for (Bits bit = hidden << 1; bit != 0; bit >>= 1) {
+        Bits trial = twice_root + bit;
+        if (rest >= trial) {
+            rest -= trial;
+            twice_root = trial + bit;
             root += bit;
         }
-        m <<= 1;
+        rest <<= 1;
     }
-    root = (root + (root & 1)) >> 1;
-    return __builtin_bit_cast(double, root + (static_cast<uint64_t>(exponent + 1022) << 52));
-}
-
-constexpr float sqrt_float_bits(float x)
-{
-    uint32_t bits = __builtin_bit_cast(uint32_t, x);
-    if (bits - 1 >= 0x7f800000u)
-        return 0.0f;
-    if (bits == 0x7f800000u)
-        return x;
-    int exponent = static_cast<int>(bits >> 23);
-    uint32_t m = bits & 0x7fffffu;
-    if (exponent == 0) {
-        int shift = count_leading_zeros(m) - 8;
-        m <<= shift;
-        exponent = 1 - shift;
-    } else {
-        m |= uint32_t{1} << 23;
-    }
-    exponent -= 127;
-    if (exponent & 1)
-        m <<= 1;
-    exponent = (exponent - (exponent & 1)) / 2;
-    m <<= 1;
-    uint32_t root = 0;
-    uint32_t done = 0;
-    for (uint32_t bit = uint32_t{1} << 24; bit != 0; bit >>= 1) {
-        uint32_t trial = done + bit;
-        if (trial <= m) {
-            done = trial + bit;
-            m -= trial;
-            root += bit;
-        }
-        m <<= 1;
-    }
-    root = (root + (root & 1)) >> 1;
-    return __builtin_bit_cast(float, root + (static_cast<uint32_t>(exponent + 126) << 23));
+    return ((root + 1) >> 1) + (static_cast<Bits>((exponent >> 1) - 1) << Fraction);
 }
 
 }  // namespace detail
 
-// Correctly rounded square root, without errno. A negative x and a NaN give 0, infinity gives infinity.
+// Square root, correctly rounded (nearest), without errno: the processor's where it has one, else in
+// integers. Infinity gives infinity; a negative x, either zero and NaN give +0.
 constexpr float sqrt_float(float x)
 {
-    return detail::sqrt_float_bits(x);
+    if (!__builtin_is_constant_evaluated()) {
+        [[maybe_unused]] float root = x > 0.0f ? x : 0.0f;
+#if defined(__AVX__)
+        __asm__("vsqrtss %0, %0, %0" : "+x"(root));
+        return root;
+#elif defined(__SSE2__)
+        __asm__("sqrtss %0, %0" : "+x"(root));
+        return root;
+#elif defined(__aarch64__)
+        __asm__("fsqrt %s0, %s0" : "+w"(root));
+        return root;
+#elif defined(__ARM_FP) && (__ARM_FP & 4)
+        __asm__("vsqrt.f32 %0, %0" : "+t"(root));
+        return root;
+#elif defined(__riscv_flen) && __riscv_flen >= 32
+        __asm__("fsqrt.s %0, %0" : "+f"(root));
+        return root;
+#endif
+    }
+    return __builtin_bit_cast(float, detail::sqrt_bits<uint32_t, 23>(__builtin_bit_cast(uint32_t, x)));
 }
 
 constexpr double sqrt_double(double x)
 {
-    return detail::sqrt_double_bits(x);
+    if (!__builtin_is_constant_evaluated()) {
+        [[maybe_unused]] double root = x > 0.0 ? x : 0.0;
+#if defined(__AVX__)
+        __asm__("vsqrtsd %0, %0, %0" : "+x"(root));
+        return root;
+#elif defined(__SSE2__)
+        __asm__("sqrtsd %0, %0" : "+x"(root));
+        return root;
+#elif defined(__aarch64__)
+        __asm__("fsqrt %d0, %d0" : "+w"(root));
+        return root;
+#elif defined(__ARM_FP) && (__ARM_FP & 8)
+        __asm__("vsqrt.f64 %P0, %P0" : "+w"(root));
+        return root;
+#elif defined(__riscv_flen) && __riscv_flen >= 64
+        __asm__("fsqrt.d %0, %0" : "+f"(root));
+        return root;
+#endif
+    }
+    return __builtin_bit_cast(double, detail::sqrt_bits<uint64_t, 52>(__builtin_bit_cast(uint64_t, x)));
 }
 
 }  // namespace qray

@@ -1,0 +1,40 @@
+// Brick: courses half a cell high, every other one shifted by half a brick (scenes/README.md defines it).
+#pragma once
+
+#include "lattice.hpp"
+
+namespace qray {
+
+template <class N>
+struct Brick {
+    Vec<typename N::Unit> colour; // N, the mortar
+    Lattice<N> lattice;           // y counts courses, two to a cell; offsets hold epsilon
+
+    constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
+    {
+        const Cell<N> course = lattice.y.cell(q);
+        const auto x = shifted(lattice.x.cell(q).inside, course.index);
+        const auto z = shifted(lattice.z.cell(q).inside, course.index);
+        const auto joint = part(16);
+        return x < joint || z < joint || course.inside < part(8) ? colour : m;
+    }
+
+private:
+    // One over a power of two.
+    static constexpr typename N::Unit part(int divisor)
+    {
+        if constexpr (N::is_fixed)
+            return {N::one.raw / divisor};
+        else
+            return typename N::Unit(1) / typename N::Unit(divisor);
+    }
+    static constexpr typename N::Unit shifted(typename N::Unit f, uint32_t course)
+    {
+        if (!(course & 1))
+            return f;
+        const auto g = f + part(2);
+        return g < N::one ? g : g - N::one;
+    }
+};
+
+} // namespace qray

@@ -1,0 +1,20 @@
+// Checker: M or N by the parity of the three cell numbers.
+#pragma once
+
+#include "lattice.hpp"
+
+namespace qray {
+
+template <class N>
+struct Checker {
+    Vec<typename N::Unit> colour; // N
+    Lattice<N> lattice;           // offsets hold epsilon
+
+    constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
+    {
+        const uint32_t cells = lattice.x.cell(q).index + lattice.y.cell(q).index + lattice.z.cell(q).index;
+        return cells & 1 ? colour : m;
+    }
+};
+
+} // namespace qray

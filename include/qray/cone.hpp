@@ -1,0 +1,159 @@
+// Open cylinder and cone frustum, in one form. In the frame of the axis, with the origin of coordinates at its
+// middle and the half-angle as (c, s): x_perp is on the surface where c |x_perp| = rho0 + s z, |z| <= half.
+//
+// The ray's origin is first moved to its point nearest to the middle, so that everything below is no
+// larger than the bounding sphere. Then, with rho = rho0 + s z of that point and o, d the parts of origin and
+// direction across the axis:
+//   A = c^2 |d|^2 - (s dz)^2    B = c^2 o.d - rho s dz    C = c^2 |o|^2 - rho^2
+//   B^2 - A C = c^2 (|U|^2 - V^2)    U = rho d - s dz o    V = c (o x d)
+// which needs no 120-bit product, and roots q/A and C/q with q = -(B + sign(B) sqrt(B^2 - A C)), which need no
+// special case where the ray is parallel to a generator. A nearly axial d is block-scaled by 2^k.
+#pragma once
+
+#include "ray.hpp"
+
+namespace qray {
+
+template <class N>
+struct Cone {
+    Point<N> middle;            // of the axis
+    Direction<N> e1, e2, axis;  // orthonormal; the axis points to the end b
+    typename N::Length rho0;    // cosine * mean radius
+    typename N::Length half;    // half the height
+    typename N::Length bound;   // radius of the bounding sphere around the middle
+    typename N::Unit cosine;    // of the half-angle
+    typename N::Unit sine;      // > 0 where the radius grows along the axis
+    Tag tag;
+};
+
+template <class N>
+QRAY_INLINE constexpr typename N::Length magnitude(typename N::Length v)
+{
+    return v < N::length_zero ? -v : v;
+}
+
+// The ray's meetings with the frustum, t > 0: how many (0, 1 or 2), the nearer in t[0].
+template <class N>
+constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length limit, typename N::Length (&t)[2])
+{
+    using Length = typename N::Length;
+    const Leaves leaving = leaves(ray, s.tag);
+    if (leaving == Leaves::outward) // one nappe is convex: never met again
+        return 0;
+    const Point<N> v = s.middle - ray.origin;
+    const Length b = N::length(dot<N>(v, ray.direction));
+    if (b < -s.bound)
+        return 0;
+    const Point<N> o = along<N>(b, ray.direction) - v;
+    if (norm2<N>(o) > s.bound * s.bound)
+        return 0;
+    if (b - s.bound > limit)
+        return 0;
+
+    const Length ox = N::length(dot<N>(o, s.e1));
+    const Length oy = N::length(dot<N>(o, s.e2));
+    const Length oz = N::length(dot<N>(o, s.axis));
+    const auto wx = dot<N>(ray.direction, s.e1);
+    const auto wy = dot<N>(ray.direction, s.e2);
+    const auto dz = N::unit(dot<N>(ray.direction, s.axis));
+    const auto ws = s.sine * dz;
+    const int k = N::headroom(wx, wy, ws);
+    if (k > 30) // along the axis of a cylinder: less than 1 ulp across in all its length
+        return 0;
+    const auto dx = N::unit(N::shifted(wx, k));
+    const auto dy = N::unit(N::shifted(wy, k));
+    const auto ds = N::unit(N::shifted(ws, k));
+
+    const Length rho = s.rho0 + N::length(s.sine * oz);
+    const Length cx = N::length(s.cosine * ox);
+    const Length cy = N::length(s.cosine * oy);
+    const Length ux = N::length(rho * dx - ox * ds);
+    const Length uy = N::length(rho * dy - oy * ds);
+    const Length v0 = N::length(cx * dy - cy * dx);
+    auto discriminant = ux * ux + uy * uy - v0 * v0;
+    if (discriminant < typename N::Area{}) {
+        if (leaving != Leaves::inward)
+            return 0;
+        discriminant = typename N::Area{};
+    }
+    const auto cdx = N::unit(s.cosine * dx);
+    const auto cdy = N::unit(s.cosine * dy);
+    const auto a = cdx * cdx + cdy * cdy - ds * ds;
+    const auto half_b = cx * cdx + cy * cdy - rho * ds;
+    const auto c = cx * cx + cy * cy - rho * rho;
+    const auto root = s.cosine * N::sqrt(discriminant);
+    const auto q = half_b < typename N::Moment{} ? root - half_b : -(root + half_b);
+
+    Length tau[2]{};
+    bool valid[2] = {N::quotient(q, a, k, tau[0]), N::quotient(c, q, k, tau[1])};
+    for (int i = 0; i < 2; i++) {
+        // Farther than the bounding sphere is beyond both ends.
+        valid[i] = valid[i] && tau[i] <= s.bound && -tau[i] <= s.bound;
+        t[i] = valid[i] ? b + tau[i] : N::length_zero;
+    }
+    if (leaving == Leaves::inward) {
+        // One root is the origin itself: the one nearer to 0, whatever rounding made of it.
+        if (!valid[0] || !valid[1])
+            return 0;
+        const int self = magnitude<N>(t[0]) <= magnitude<N>(t[1]) ? 0 : 1;
+        valid[self] = false;
+        if (!(t[1 - self] > N::length_zero) && a > typename N::Cosine{})
+            t[1 - self] = N::ulp;
+    }
+    for (int i = 0; i < 2; i++) {
+        if (!valid[i])
+            continue;
+        const Length z = oz + N::length(tau[i] * dz);
+        valid[i] = z <= s.half && z >= -s.half && t[i] > N::length_zero && t[i] <= limit;
+    }
+    if (valid[0] && valid[1]) {
+        if (t[1] < t[0]) {
+            const Length swap = t[0];
+            t[0] = t[1];
+            t[1] = swap;
+        }
+        return 2;
+    }
+    if (valid[1])
+        t[0] = t[1];
+    return valid[0] || valid[1];
+}
+
+template <class N>
+constexpr bool intersect(const Cone<N>& s, const Ray<N>& ray, typename N::Length limit, typename N::Length& t)
+{
+    typename N::Length both[2]{};
+    if (meetings(s, ray, limit, both) == 0)
+        return false;
+    t = both[0];
+    return true;
+}
+
+template <class N>
+constexpr int crossings(const Cone<N>& s, const Ray<N>& ray, typename N::Length limit)
+{
+    typename N::Length t[2]{};
+    const int n = meetings(s, ray, limit, t);
+    return (n > 0 && t[0] < limit) + (n > 1 && t[1] < limit);
+}
+
+// The outward unit normal at a point of the surface; at an apex, the axis away from the body.
+template <class N>
+constexpr Direction<N> normal_at(const Cone<N>& s, const Point<N>& q)
+{
+    const Point<N> w = q - s.middle;
+    const auto z = N::length(dot<N>(w, s.axis));
+    const Point<N> across = w - along<N>(z, s.axis);
+    const auto rho = s.rho0 + N::length(s.sine * z);
+    // Along c^2 x_perp - s rho axis.
+    const auto back = N::length(s.sine * rho);
+    const auto c = s.cosine;
+    const Point<N> outward{N::length(N::length(c * across.x) * c - back * s.axis.x),
+                           N::length(N::length(c * across.y) * c - back * s.axis.y),
+                           N::length(N::length(c * across.z) * c - back * s.axis.z)};
+    Direction<N> n = s.sine > N::zero ? -s.axis : s.axis;
+    normalise<N>(outward, n);
+    return n;
+}
+
+} // namespace qray

@@ -1,0 +1,61 @@
+// Flat disc; and plane, which by IMAGE's definition ends at a distance `far` from the centre of the scene: it is
+// the disc of radius sqrt(far^2 - h^2) around the foot of that centre, and is stored as one.
+#pragma once
+
+#include "ray.hpp"
+
+namespace qray {
+
+template <class N>
+struct Disc {
+    Point<N> centre;
+    Direction<N> normal; // unit
+    typename N::Length radius;
+    Tag tag;
+};
+
+// t = n.(c - o) / n.d, where that is in (0, limit]. A numerator beyond limit times the denominator is
+// turned away before the division, so that no quotient overflows.
+template <class N>
+QRAY_INLINE constexpr bool intersect_plane(typename N::Moment num, typename N::Cosine den,
+                                           typename N::Length limit, typename N::Length& t)
+{
+    constexpr typename N::Moment zero_moment{};
+    constexpr typename N::Cosine zero_cosine{};
+    if (den > zero_cosine ? !(num > zero_moment) : !(num < zero_moment))
+        return false;
+    return N::quotient(num, den, 0, t) && t > N::length_zero && t <= limit;
+}
+
+template <class N>
+QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typename N::Length limit,
+                                     typename N::Length& t)
+{
+    if (ray.from == s.tag)
+        return false;
+    const Point<N> v = s.centre - ray.origin;
+    if (!intersect_plane<N>(dot<N>(v, s.normal), dot<N>(ray.direction, s.normal), limit, t))
+        return false;
+    const Point<N> a = along<N>(t, ray.direction);
+    const Point<N> w{N::saturating_sub(a.x, v.x), N::saturating_sub(a.y, v.y), N::saturating_sub(a.z, v.z)};
+    const auto r = s.radius;
+    // Outside the square first: the sum of squares below then fits.
+    if (w.x > r || w.y > r || w.z > r || -w.x > r || -w.y > r || -w.z > r)
+        return false;
+    return norm2<N>(w) <= r * r;
+}
+
+template <class N>
+QRAY_INLINE constexpr int crossings(const Disc<N>& s, const Ray<N>& ray, typename N::Length limit)
+{
+    typename N::Length t{};
+    return intersect(s, ray, limit, t) && t < limit;
+}
+
+template <class N>
+QRAY_INLINE constexpr Direction<N> normal_at(const Disc<N>& s, const Point<N>&)
+{
+    return s.normal;
+}
+
+} // namespace qray

@@ -1,0 +1,94 @@
+// Fixed-point numbers: Fixed<Frac, Bits> is a signed Bits-wide number in Q-format with Frac fractional
+// bits; Wide<Frac, Bits> holds the exact product of two of them, or a sum of such products, in twice
+// the width. A chain of products is summed in Wide and rounded once, to nearest, ties upward.
+//
+// Nothing here checks for overflow: every caller states why its values fit, or uses saturating_*.
+#pragma once
+
+#include <stdint.h>
+
+#include "base.hpp"
+
+namespace qray {
+
+template <int Bits>
+struct Register {
+    using type = int64_t;
+};
+template <>
+struct Register<16> {
+    using type = int32_t;
+};
+
+template <int Frac, int Bits = 32>
+struct Fixed {
+    static constexpr int frac = Frac;
+    int32_t raw; // value * 2^Frac
+
+    friend constexpr Fixed operator+(Fixed a, Fixed b) { return {a.raw + b.raw}; }
+    friend constexpr Fixed operator-(Fixed a, Fixed b) { return {a.raw - b.raw}; }
+    constexpr Fixed operator-() const { return {-raw}; }
+    constexpr Fixed& operator+=(Fixed b) { raw += b.raw; return *this; }
+    friend constexpr bool operator==(Fixed a, Fixed b) { return a.raw == b.raw; }
+    friend constexpr bool operator!=(Fixed a, Fixed b) { return a.raw != b.raw; }
+    friend constexpr bool operator<(Fixed a, Fixed b) { return a.raw < b.raw; }
+    friend constexpr bool operator>(Fixed a, Fixed b) { return a.raw > b.raw; }
+    friend constexpr bool operator<=(Fixed a, Fixed b) { return a.raw <= b.raw; }
+    friend constexpr bool operator>=(Fixed a, Fixed b) { return a.raw >= b.raw; }
+};
+
+template <int Frac, int Bits = 32>
+struct Wide {
+    static constexpr int frac = Frac;
+    using Rep = typename Register<Bits>::type;
+    Rep raw; // value * 2^Frac
+
+    friend constexpr Wide operator+(Wide a, Wide b) { return {a.raw + b.raw}; }
+    friend constexpr Wide operator-(Wide a, Wide b) { return {a.raw - b.raw}; }
+    constexpr Wide operator-() const { return {-raw}; }
+    friend constexpr bool operator==(Wide a, Wide b) { return a.raw == b.raw; }
+    friend constexpr bool operator<(Wide a, Wide b) { return a.raw < b.raw; }
+    friend constexpr bool operator>(Wide a, Wide b) { return a.raw > b.raw; }
+    friend constexpr bool operator<=(Wide a, Wide b) { return a.raw <= b.raw; }
+    friend constexpr bool operator>=(Wide a, Wide b) { return a.raw >= b.raw; }
+};
+
+// The exact product.
+template <int A, int B>
+QRAY_INLINE constexpr Wide<A + B, 32> operator*(Fixed<A, 32> a, Fixed<B, 32> b)
+{
+    return {wide_mul(a.raw, b.raw)};
+}
+template <int A, int B>
+QRAY_INLINE constexpr Wide<A + B, 16> operator*(Fixed<A, 16> a, Fixed<B, 16> b)
+{
+    return {a.raw * b.raw};
+}
+
+// The nearest To; |w| must be within To's range.
+template <class To, int Frac, int Bits>
+QRAY_INLINE constexpr To round_to(Wide<Frac, Bits> w)
+{
+    constexpr int shift = Frac - To::frac;
+    static_assert(shift > 0 && shift < 63);
+    using Rep = typename Wide<Frac, Bits>::Rep;
+    return {static_cast<int32_t>((w.raw + (Rep{1} << (shift - 1))) >> shift)};
+}
+
+// a - b and a + b, clamped to the range of 32 bits.
+constexpr int32_t saturating_sub(int32_t a, int32_t b)
+{
+    int32_t r = 0;
+    if (__builtin_sub_overflow(a, b, &r))
+        return a < 0 ? INT32_MIN + 1 : INT32_MAX;
+    return r;
+}
+constexpr int32_t saturating_add(int32_t a, int32_t b)
+{
+    int32_t r = 0;
+    if (__builtin_add_overflow(a, b, &r))
+        return a < 0 ? INT32_MIN + 1 : INT32_MAX;
+    return r;
+}
+
+} // namespace qray

@@ -1,0 +1,136 @@
+// Where a point lies in a texture's lattice: cells of edge `size`, counted in 32-bit wrap-around arithmetic, and
+// the place inside the cell. In fixed point p = q/size + offset is a 64-bit Q32.32 number: exact to 2^-31 of
+// q/size, right as many cells out as a scene can hold, at lattice planes and at the most negative cell.
+// The offset undoes the builder's move of the scene; it also holds the definition's epsilon of 1/1024 where a
+// texture asks for it.
+#pragma once
+
+#include "ray.hpp"
+
+namespace qray {
+
+template <class N>
+struct Cell {
+    uint32_t index;          // floor(p) mod 2^32
+    typename N::Unit inside; // p - floor(p), [0, 1)
+};
+
+// One coordinate of the lattice: row . q + offset.
+template <class N>
+struct LatticeAxis;
+
+template <class N>
+    requires N::is_fixed
+struct LatticeAxis<N> {
+    // row . q = (sum of row_i q_i, in units of 2^-30 lengths) * 2^shift, in units of 2^-32 cells
+    int32_t row_x, row_y, row_z;
+    int32_t shift;
+    int64_t offset;
+
+    // Q32.32, wrapping.
+    constexpr uint64_t wrapped(const Point<N>& q) const
+    {
+        const int64_t sum = wide_dot(q.x.raw, q.y.raw, q.z.raw, row_x, row_y, row_z);
+        return (shift >= 0 ? static_cast<uint64_t>(sum) << shift : static_cast<uint64_t>(sum >> -shift))
+            + static_cast<uint64_t>(offset);
+    }
+    constexpr Cell<N> cell(const Point<N>& q) const { return split(wrapped(q)); }
+    // p clamped to [0, 1].
+    constexpr typename N::Unit clamped(const Point<N>& q) const
+    {
+        const int64_t p = bounded(q);
+        if (p <= 0)
+            return N::zero;
+        return p >> 32 != 0 ? N::one : typename N::Unit{static_cast<int32_t>(p >> (32 - N::Unit::frac))};
+    }
+    // Q32.32, clamped to +-2^62.
+    constexpr int64_t bounded(const Point<N>& q) const
+    {
+        constexpr int64_t limit = int64_t{1} << 61;
+        const int64_t sum = wide_dot(q.x.raw, q.y.raw, q.z.raw, row_x, row_y, row_z);
+        int64_t p = sum >> (shift < 0 ? -shift : 0);
+        if (shift > 0)
+            p = p >= limit >> shift ? limit : p <= -(limit >> shift) ? -limit : p * (int64_t{1} << shift);
+        p += offset < -limit ? -limit : offset > limit ? limit : offset;
+        return p;
+    }
+    static constexpr Cell<N> split(uint64_t p)
+    {
+        return {static_cast<uint32_t>(p >> 32),
+                typename N::Unit{static_cast<int32_t>(static_cast<uint32_t>(p) >> (32 - N::Unit::frac))}};
+    }
+};
+
+template <class N>
+    requires(!N::is_fixed)
+struct LatticeAxis<N> {
+    using F = typename N::Length;
+    F row_x, row_y, row_z; // in 1/size
+    F inside;              // the offset's fraction, [0, 1)
+    uint32_t index;        // the offset's floor, mod 2^32
+    F offset;              // the offset whole
+
+    constexpr Cell<N> cell(const Point<N>& q) const
+    {
+        const Cell<N> c = split(along(q) + inside);
+        return {c.index + index, c.inside};
+    }
+    constexpr F clamped(const Point<N>& q) const
+    {
+        const F p = along(q) + offset;
+        return p > F(0) ? (p < F(1) ? p : F(1)) : F(0);
+    }
+    constexpr F along(const Point<N>& q) const { return row_x * q.x + row_y * q.y + row_z * q.z; }
+    constexpr F bounded(const Point<N>& q) const { return along(q) + offset; }
+    static constexpr Cell<N> split(F p)
+    {
+        constexpr F limit = F(int64_t{1} << 62);
+        if (!(p < limit && p > -limit)) // no fraction left at such a distance
+            return {0, F(0)};
+        int64_t whole = static_cast<int64_t>(p);
+        if (static_cast<F>(whole) > p)
+            whole--;
+        return {static_cast<uint32_t>(whole), p - static_cast<F>(whole)};
+    }
+};
+
+// The three coordinates of a lattice.
+template <class N>
+struct Lattice {
+    LatticeAxis<N> x, y, z;
+};
+
+// sqrt(a^2 + b^2) of two bounded coordinates, plus epsilon: cell and place inside.
+template <class N, class P>
+constexpr Cell<N> radial_cell(P a, P b, bool with_epsilon)
+{
+    if constexpr (N::is_fixed) {
+        const uint64_t ua = N::magnitude(a), ub = N::magnitude(b);
+        const int down = 32 - count_leading_zeros(ua | ub);
+        uint64_t rho = 0;
+        if (down > 0) {
+            const uint64_t na = ua >> down, nb = ub >> down;
+            rho = uint64_t{isqrt((na >> 1) * (na >> 1) + (nb >> 1) * (nb >> 1))} << (down + 1);
+        } else {
+            rho = isqrt((ua >> 1) * (ua >> 1) + (ub >> 1) * (ub >> 1)) * uint64_t{2};
+        }
+        return LatticeAxis<N>::split(rho + (with_epsilon ? uint64_t{1} << 22 : 0));
+    } else {
+        return LatticeAxis<N>::split(N::sqrt(a * a + b * b) + (with_epsilon ? P(1) / P(1024) : P(0)));
+    }
+}
+
+// a + (b - a) k, k in [0, 1].
+template <class N>
+QRAY_INLINE constexpr typename N::Unit blend(typename N::Unit a, typename N::Unit b, typename N::Unit k)
+{
+    return a + N::unit((b - a) * k);
+}
+template <class N>
+QRAY_INLINE constexpr Vec<typename N::Unit> blend(const Vec<typename N::Unit>& a, const Vec<typename N::Unit>& b,
+                                                  typename N::Unit k)
+{
+    return {blend<N>(a.x, b.x, k), blend<N>(a.y, b.y, k), blend<N>(a.z, b.z, k)};
+}
+
+} // namespace qray

@@ -1,0 +1,44 @@
+// Point lights.
+#pragma once
+
+#include "ray.hpp"
+
+namespace qray {
+
+// A light that stands far outside has a scale of its own: `at` is in units of 2^shift lengths. It only gives a
+// direction, and a distance beyond which nothing is in its way.
+template <class N>
+struct Light {
+    Point<N> at;
+    int32_t shift; // >= 0; 0 in floating point
+    Rgb<N> colour;
+};
+
+// The unit vector from q to the light and the distance at which to stop looking for what is in its way; false
+// where the light stands at q itself.
+template <class N>
+QRAY_INLINE constexpr bool towards(const Light<N>& light, const Point<N>& q, Direction<N>& l,
+                                   typename N::Length& distance)
+{
+    if constexpr (N::is_fixed) {
+        const int s = light.shift;
+        const int32_t half = int32_t{1} << s >> 1;
+        const Point<N> v{typename N::Length{light.at.x.raw - ((q.x.raw + half) >> s)},
+                         typename N::Length{light.at.y.raw - ((q.y.raw + half) >> s)},
+                         typename N::Length{light.at.z.raw - ((q.z.raw + half) >> s)}};
+        if (!normalise<N>(v, l))
+            return false;
+        const int32_t d = N::length(dot<N>(v, l)).raw;
+        distance = d > INT32_MAX >> s ? N::length_max : typename N::Length{(d << s) - N::light_clearance.raw};
+        return true;
+    } else {
+        const Point<N> v = light.at - q;
+        if (!normalise<N>(v, l))
+            return false;
+        const auto d = dot<N>(v, l);
+        distance = d - d * N::light_clearance;
+        return true;
+    }
+}
+
+} // namespace qray

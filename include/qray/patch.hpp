@@ -1,0 +1,59 @@
+// Smooth patch: one triangle of the fan, with a normal at each corner. Its shading normal is the barycentric blend.
+#pragma once
+
+#include "polygon.hpp"
+
+namespace qray {
+
+template <class N>
+struct Patch {
+    Direction<N> normal;      // g of the triangle, unit
+    Point<N> middle;          // of a ball that holds the triangle
+    typename N::Length bound; // its radius
+    uint32_t first, second;   // corners: first, second, second + 1; vertices and corner normals alike
+    Tag tag;
+};
+
+template <class N>
+constexpr bool intersect(const Patch<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length limit,
+                         typename N::Length& t)
+{
+    if (ray.from == s.tag)
+        return false;
+    const auto corner = [&s, vertices, &ray](uint32_t i) {
+        return vertices[i == 0 ? s.first : s.second + i - 1] - ray.origin;
+    };
+    return intersect_corners<N>(s.normal, 3, corner, ray, limit, t);
+}
+
+template <class N>
+constexpr int crossings(const Patch<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length limit)
+{
+    typename N::Length t{};
+    return intersect(s, vertices, ray, limit, t) && t < limit;
+}
+
+// The shading normal where the ray meets the triangle: unit, not yet turned; g where the blend vanishes.
+template <class N>
+constexpr Direction<N> shading_normal(const Patch<N>& s, const Point<N>* vertices, const Direction<N>* normals,
+                                      const Ray<N>& ray)
+{
+    const Shear<N> shear(ray.direction);
+    const Sheared<N> a = shear(vertices[s.first] - ray.origin);
+    const Sheared<N> b = shear(vertices[s.second] - ray.origin);
+    const Sheared<N> c = shear(vertices[s.second + 1] - ray.origin);
+    const auto u = edge<N>(b, c), v = edge<N>(c, a), w = edge<N>(a, b);
+    typename N::Unit wa{}, wb{}, wc{};
+    Direction<N> n = s.normal;
+    if (N::weights(u, v, w, wa, wb, wc)) {
+        const Direction<N>& na = normals[s.first];
+        const Direction<N>& nb = normals[s.second];
+        const Direction<N>& nc = normals[s.second + 1];
+        normalise<N>(Vec<typename N::Cosine>{wa * na.x + wb * nb.x + wc * nc.x, wa * na.y + wb * nb.y + wc * nc.y,
+                                             wa * na.z + wb * nb.z + wc * nc.z},
+                     n);
+    }
+    return n;
+}
+
+} // namespace qray

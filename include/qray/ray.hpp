@@ -1,0 +1,67 @@
+// A ray, a hit, and the tag by which a ray knows the surface it left.
+#pragma once
+
+#include "vec.hpp"
+
+namespace qray {
+
+template <class N>
+using Point = Vec<typename N::Length>;
+template <class N>
+using Direction = Vec<typename N::Unit>; // unit length within 2^-29 in q32
+template <class N>
+using Rgb = Vec<typename N::Colour>;
+
+// Names a surface: its place in the scene file (20 bits, unique) and its material (12 bits).
+// Of two hits at the same t the lower place wins.
+struct Tag {
+    uint32_t bits;
+    static constexpr uint32_t none = 0xffffffff;
+    constexpr uint32_t material() const { return bits >> 20; }
+    constexpr uint32_t place() const { return bits & 0xfffff; }
+    friend constexpr bool operator==(Tag a, Tag b) { return a.bits == b.bits; }
+};
+constexpr Tag make_tag(uint32_t place, uint32_t material) { return {material << 20 | place}; }
+
+template <class N>
+struct Ray {
+    Point<N> origin;
+    Direction<N> direction;
+    Tag from;     // the surface that the origin lies on, or Tag::none
+    bool outward; // which side of it the ray leaves to: that of its outward normal
+};
+
+// How a ray stands to a surface that it meets.
+enum class Leaves { no, outward, inward };
+
+template <class N>
+QRAY_INLINE constexpr Leaves leaves(const Ray<N>& ray, Tag tag)
+{
+    return !(ray.from == tag) ? Leaves::no : ray.outward ? Leaves::outward : Leaves::inward;
+}
+
+enum class Kind : uint8_t { sphere, disc, cone, polygon, patch };
+
+template <class N>
+struct Hit {
+    typename N::Length t; // > 0
+    Tag tag;
+    Kind kind;
+    uint32_t index; // into the scene's table of that kind
+
+    // A hit at distance t on the surface named by tag comes before this one.
+    QRAY_INLINE constexpr bool after(typename N::Length t2, Tag tag2) const
+    {
+        return t2 < t || (t2 == t && tag2.place() < tag.place());
+    }
+};
+
+// The surface at a hit. The geometric normal points outward; `normal` is the shading normal, turned to the viewer.
+template <class N>
+struct Surface {
+    Point<N> point;
+    Direction<N> geometric;
+    Direction<N> normal;
+};
+
+} // namespace qray

@@ -1,0 +1,54 @@
+// Pixels from samples: IMAGE section 5.
+#pragma once
+
+#include "trace.hpp"
+
+namespace qray {
+
+// A sample's colour, clamped to [0, 1]: Q8.24 in fixed point.
+template <class N>
+struct Sample {
+    using Level = uint32_t;
+    static constexpr Level one = uint32_t{1} << 24;
+    Level r, g, b;
+
+    static constexpr Level clamped(typename N::Colour c, int exposure)
+    {
+        constexpr int down = N::Colour::frac - 24;
+        const int32_t limit = (int32_t{1} << N::Colour::frac) >> exposure;
+        const uint32_t v = static_cast<uint32_t>((c.raw < limit ? c.raw : limit) << exposure);
+        return down >= 0 ? v >> (down >= 0 ? down : 0) : v << (down >= 0 ? 0 : -down);
+    }
+    // The nearest byte, halves up.
+    static constexpr uint8_t byte(Level v) { return static_cast<uint8_t>((v * 255 + (one >> 1)) >> 24); }
+};
+template <class N>
+    requires(!N::is_fixed)
+struct Sample<N> {
+    using Level = typename N::Colour;
+    static constexpr Level one = 1;
+    Level r, g, b;
+
+    static constexpr Level clamped(Level c, int) { return c > 0 ? (c < 1 ? c : Level(1)) : Level(0); }
+    static constexpr uint8_t byte(Level v) { return static_cast<uint8_t>(v * 255 + Level(0.5)); }
+};
+
+template <class N, Effects E, class Count>
+constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, Count& count)
+{
+    const Rgb<N> c = trace(scene, scene.camera.ray(at), count);
+    return {Sample<N>::clamped(c.x, scene.exposure), Sample<N>::clamped(c.y, scene.exposure),
+            Sample<N>::clamped(c.z, scene.exposure)};
+}
+
+struct Pixel {
+    uint8_t r, g, b;
+};
+
+template <class N>
+constexpr Pixel pixel_of(const Sample<N>& s)
+{
+    return {Sample<N>::byte(s.r), Sample<N>::byte(s.g), Sample<N>::byte(s.b)};
+}
+
+} // namespace qray

@@ -1,0 +1,83 @@
+// A scene as the tracer reads it: pointers and counts into fixed arrays, a desktop's storage or a compiled scene's
+// constant tables. Tables of effects that are not in E are empty types.
+#pragma once
+
+#include "brick.hpp"
+#include "camera.hpp"
+#include "checker.hpp"
+#include "cone.hpp"
+#include "disc.hpp"
+#include "effects.hpp"
+#include "gradient.hpp"
+#include "highlight.hpp"
+#include "light.hpp"
+#include "marble.hpp"
+#include "material.hpp"
+#include "mirror.hpp"
+#include "noise.hpp"
+#include "patch.hpp"
+#include "polygon.hpp"
+#include "rings.hpp"
+#include "sphere.hpp"
+#include "stripes.hpp"
+#include "sun.hpp"
+#include "transmit.hpp"
+#include "wood.hpp"
+
+namespace qray {
+
+template <class T, bool Present>
+struct Table {
+    const T* data;
+    uint32_t count;
+    constexpr const T& operator[](uint32_t i) const { return data[i]; }
+};
+template <class T>
+struct Table<T, false> {};
+
+// A single value that only some scenes need.
+template <class T, bool Present>
+struct Maybe {
+    T value;
+};
+template <class T>
+struct Maybe<T, false> {};
+
+template <class N, Effects E>
+struct Scene {
+    Camera<N> camera;
+    Rgb<N> background;
+    int32_t exposure; // colours are stored divided by 2^exposure
+    [[no_unique_address]] Maybe<uint8_t, E.spawns()> max_depth; // at most E.depth
+    [[no_unique_address]] Maybe<typename N::Unit, E.spawns()> cutoff;
+    [[no_unique_address]] Maybe<bool, E.shadow> shadows;
+    [[no_unique_address]] Maybe<uint8_t, E.adaptive> levels;
+    [[no_unique_address]] Maybe<typename N::Unit, E.adaptive> threshold;
+
+    [[no_unique_address]] Table<Sphere<N>, E.sphere> spheres;
+    [[no_unique_address]] Table<Disc<N>, E.disc> discs;
+    [[no_unique_address]] Table<Cone<N>, E.cone> cones;
+    [[no_unique_address]] Table<Polygon<N>, E.polygon> polygons;
+    [[no_unique_address]] Table<Patch<N>, E.patch> patches;
+    [[no_unique_address]] Table<Point<N>, E.polygon || E.patch> vertices;
+    [[no_unique_address]] Table<Direction<N>, E.patch> normals;
+
+    Table<Matte<N>, true> mattes;
+    [[no_unique_address]] Table<Highlight<N>, E.highlight> highlights;
+    [[no_unique_address]] Table<Mirror<N>, E.mirror> mirrors;
+    [[no_unique_address]] Table<Transmit<N>, E.transmit || E.see_through> transmits;
+    [[no_unique_address]] Table<TextureRef, E.texture()> textures;
+    [[no_unique_address]] Table<Checker<N>, E.checker> checkers;
+    [[no_unique_address]] Table<Stripes<N>, E.stripes> stripes;
+    [[no_unique_address]] Table<Gradient<N>, E.gradient> gradients;
+    [[no_unique_address]] Table<Rings<N>, E.rings> rings;
+    [[no_unique_address]] Table<Noise<N>, E.noise> noises;
+    [[no_unique_address]] Table<Marble<N>, E.marble> marbles;
+    [[no_unique_address]] Table<Wood<N>, E.wood> woods;
+    [[no_unique_address]] Table<Brick<N>, E.brick> bricks;
+
+    [[no_unique_address]] Table<Light<N>, E.light> lights;
+    [[no_unique_address]] Table<Sun<N>, E.sun> suns;
+};
+
+} // namespace qray

@@ -1,0 +1,59 @@
+// Three components of one type. What a vector stands for (a point, a direction, a colour) is said by its
+// component type: Length, Unit or Colour of a number system.
+#pragma once
+
+#include "number.hpp"
+
+namespace qray {
+
+template <class T>
+struct Vec {
+    T x, y, z;
+
+    friend constexpr Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    friend constexpr Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    constexpr Vec operator-() const { return {-x, -y, -z}; }
+    friend constexpr bool operator==(const Vec& a, const Vec& b)
+    {
+        return a.x == b.x && a.y == b.y && a.z == b.z;
+    }
+};
+
+// Exact in fixed point.
+template <class N, class A, class B>
+QRAY_INLINE constexpr auto dot(const Vec<A>& a, const Vec<B>& b)
+{
+    return N::dot(a.x, a.y, a.z, b.x, b.y, b.z);
+}
+template <class N>
+QRAY_INLINE constexpr auto norm2(const Vec<typename N::Length>& a)
+{
+    return N::norm2(a.x, a.y, a.z);
+}
+
+// t d, one rounding a component.
+template <class N>
+QRAY_INLINE constexpr Vec<typename N::Length> along(typename N::Length t, const Vec<typename N::Unit>& d)
+{
+    return {N::length(t * d.x), N::length(t * d.y), N::length(t * d.z)};
+}
+template <class N>
+QRAY_INLINE constexpr Vec<typename N::Unit> scaled(typename N::Unit k, const Vec<typename N::Unit>& d)
+{
+    return {N::unit(k * d.x), N::unit(k * d.y), N::unit(k * d.z)};
+}
+template <class N>
+QRAY_INLINE constexpr Vec<typename N::Colour> scaled(typename N::Unit k, const Vec<typename N::Colour>& c)
+    requires N::is_fixed
+{
+    return {N::colour(c.x * k), N::colour(c.y * k), N::colour(c.z * k)};
+}
+
+// The unit vector along v, each component within 1 ulp (fixed point). False, and u untouched, where v is zero.
+template <class N, class T>
+QRAY_INLINE constexpr bool normalise(const Vec<T>& v, Vec<typename N::Unit>& u)
+{
+    return N::normalise(v.x, v.y, v.z, u.x, u.y, u.z);
+}
+
+} // namespace qray

@@ -1,0 +1,29 @@
+// Wood: growth rings around an axis through the origin, uneven by noise (scenes/README.md defines it).
+#pragma once
+
+#include "noise.hpp"
+
+namespace qray {
+
+template <class N>
+struct Wood {
+    Vec<typename N::Unit> colour; // N
+    Lattice<N> lattice;
+    LatticeAxis<N> across, along; // two axes across the grain
+
+    constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
+    {
+        const Cell<N> ring = radial_cell<N>(across.bounded(q), along.bounded(q), false);
+        auto n = noise<N>(lattice.x.cell(q), lattice.y.cell(q), lattice.z.cell(q));
+        if constexpr (N::is_fixed)
+            n = typename N::Unit{n.raw >> 1};
+        else
+            n = n / 2;
+        auto w = ring.inside + n;
+        if (w >= N::one)
+            w = w - N::one;
+        return blend<N>(m, colour, N::unit(w * w));
+    }
+};
+
+} // namespace qray

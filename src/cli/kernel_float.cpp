@@ -1,0 +1,3 @@
+#include "kernel.hpp"
+
+template struct qray::cli::Kernel<qray::Float>;

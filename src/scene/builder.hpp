@@ -1,0 +1,460 @@
+// From a description in double to a number system's storage: moves and scales the scene to fill the range, finds
+// what it calls for, and computes what the tracer would otherwise compute again and again.
+#pragma once
+
+#include "convert.hpp"
+#include "storage.hpp"
+
+namespace qray::scene {
+
+struct Settings {
+    uint32_t width = 0, height = 0; // 0: the scene's own
+    uint32_t grid = 1;              // n x n samples a pixel
+    uint32_t depth = 5;
+    double cutoff = 0.0014;
+    uint32_t levels = 0; // of adaptive sampling; 0: none
+    double threshold = 1.0 / 16;
+    static constexpr uint32_t max_depth = 64;
+    static constexpr uint32_t max_grid = 64;
+};
+
+// The move and the scale: scaled = (p - origin) * scale, scale a power of two.
+struct Frame {
+    Vec3d origin, centre; // centre: of the scene box, in the scene's own units
+    double scale = 1, radius = 0, far = 0;
+    Vec3d point(const Vec3d& p) const { return (p - origin) * scale; }
+};
+
+struct Box {
+    Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+    void add(const Vec3d& p, const Vec3d& extent = {})
+    {
+        low = {fmin(low.x, p.x - extent.x), fmin(low.y, p.y - extent.y), fmin(low.z, p.z - extent.z)};
+        high = {fmax(high.x, p.x + extent.x), fmax(high.y, p.y + extent.y), fmax(high.z, p.z + extent.z)};
+    }
+};
+
+// Half the extent of a circle of radius r across the unit vector n.
+inline Vec3d circle_extent(const Vec3d& n, double r)
+{
+    const auto side = [r](double c) { return r * sqrt(fmax(0, 1 - c * c)); };
+    return {side(n.x), side(n.y), side(n.z)};
+}
+
+inline void add_object(Box& box, const Description& d, const Object& o)
+{
+    switch (o.shape) {
+    case Shape::sphere: box.add(o.a, {o.ra, o.ra, o.ra}); break;
+    case Shape::disc: box.add(o.a, circle_extent(unit(o.b), o.ra)); break;
+    case Shape::cone: {
+        const Vec3d axis = unit(o.b - o.a);
+        box.add(o.a, circle_extent(axis, o.ra));
+        box.add(o.b, circle_extent(axis, o.rb));
+        break;
+    }
+    case Shape::polygon:
+    case Shape::patch:
+        for (uint32_t i = 0; i < o.count; i++)
+            box.add(d.vertices[o.vertex + i]);
+        break;
+    case Shape::plane: break;
+    }
+}
+
+// A cone's ball: around the middle of the axis, through the wider rim.
+inline double cone_bound(const Object& o)
+{
+    const double half = length(o.b - o.a) / 2;
+    const double r = fmax(o.ra, o.rb);
+    return sqrt(half * half + r * r);
+}
+
+template <class N>
+class Builder {
+public:
+    Builder(const Description& from, const Settings& with, Storage<N>& into) : d(from), settings(with), s(into) {}
+
+    // False, and a reason in `error` without a place, where the scene does not fit the number system.
+    bool build(Error& error)
+    {
+        (void)error;
+        reset();
+        frame = fit();
+        for (uint32_t i = 0; i < d.vertex_count; i++)
+            s.vertices.push() = point(d.vertices[i]);
+        for (uint32_t i = 0; i < d.object_count; i++)
+            add(d.objects[i]);
+        lights();
+        materials();
+        camera();
+        effects();
+        return true;
+    }
+
+private:
+    // How far a point may lie from the origin, and the ball of a cone from its middle (see cone.hpp).
+    static constexpr double world = 62, cone_world = 40;
+
+    const Description& d;
+    const Settings& settings;
+    Storage<N>& s;
+    Frame frame;
+    uint32_t place = 0;
+
+    void reset()
+    {
+        s.spheres.count = s.discs.count = s.cones.count = s.polygons.count = s.patches.count = 0;
+        s.vertices.count = s.normals.count = 0;
+        s.mattes.count = s.highlights.count = s.mirrors.count = s.transmits.count = s.textures.count = 0;
+        s.checkers.count = s.stripes.count = s.gradients.count = s.rings.count = s.noises.count = 0;
+        s.marbles.count = s.woods.count = s.bricks.count = 0;
+        s.lights.count = s.suns.count = 0;
+        s.vanished = 0;
+        place = 0;
+    }
+
+    Frame fit() const
+    {
+        Box box;
+        box.add(d.view.from);
+        box.add(d.view.at);
+        double cone = 0;
+        bool planes = false;
+        for (uint32_t i = 0; i < d.object_count; i++) {
+            add_object(box, d, d.objects[i]);
+            if (d.objects[i].shape == Shape::cone)
+                cone = fmax(cone, cone_bound(d.objects[i]));
+            planes = planes || d.objects[i].shape == Shape::plane;
+        }
+        Frame f;
+        f.centre = (box.low + box.high) * 0.5;
+        f.radius = length(box.high - box.low) / 2;
+        f.far = d.far > 0 ? d.far : 16 * f.radius;
+        const double reach = planes ? fmax(f.radius, f.far) : f.radius;
+        int exponent = 0;
+        frexp(fmax(reach / world, cone / cone_world), &exponent);
+        f.scale = ldexp(1, -exponent);
+        // On a coarse lattice, so that coordinates that are round in the file stay so.
+        const double step = f.scale * 64;
+        f.origin = {round(f.centre.x * step) / step, round(f.centre.y * step) / step, round(f.centre.z * step) / step};
+        return f;
+    }
+
+    Point<N> point(const Vec3d& p) const { return Convert<N>::point(frame.point(p)); }
+    typename N::Length radius(double r) const { return Convert<N>::length(r * frame.scale); }
+    // A bound that rounding does not make too small.
+    typename N::Length bound(double r) const { return Convert<N>::length(r * frame.scale * (1 + 1e-6) + 2e-6); }
+
+    void add(const Object& o)
+    {
+        const Tag tag = make_tag(place, o.fill);
+        switch (o.shape) {
+        case Shape::sphere: sphere(o, tag); break;
+        case Shape::disc: disc(point(o.a), unit(o.b), o.ra, tag); break;
+        case Shape::plane: plane(o, tag); break;
+        case Shape::cone: cone(o, tag); break;
+        case Shape::polygon: polygon(o, tag); break;
+        case Shape::patch: patch(o); return;
+        }
+        place++;
+    }
+
+    void sphere(const Object& o, Tag tag)
+    {
+        const auto r = radius(o.ra);
+        if (r == N::length_zero) {
+            s.vanished++;
+            return;
+        }
+        s.spheres.push() = {point(o.a), r, Convert<N>::inverse(r), tag};
+    }
+
+    void disc(const Point<N>& centre, const Vec3d& n, double r, Tag tag)
+    {
+        if (radius(r) == N::length_zero) {
+            s.vanished++;
+            return;
+        }
+        s.discs.push() = {centre, Convert<N>::direction(n), radius(r), tag};
+    }
+
+    void plane(const Object& o, Tag tag)
+    {
+        const Vec3d n = unit(o.b);
+        const double height = dot(n, o.a - frame.centre);
+        if (fabs(height) < frame.far)
+            disc(point(frame.centre + n * height), n, sqrt(frame.far * frame.far - height * height), tag);
+    }
+
+    void cone(const Object& o, Tag tag)
+    {
+        const Vec3d along = o.b - o.a;
+        const double height = length(along);
+        const Vec3d axis = unit(along);
+        const double growth = (o.rb - o.ra) / height;
+        const double cosine = 1 / sqrt(1 + growth * growth), sine = growth * cosine;
+        if (radius(fmax(o.ra, o.rb)) == N::length_zero || radius(height) == N::length_zero) {
+            s.vanished++;
+            return;
+        }
+        const Vec3d other = fabs(axis.x) <= fabs(axis.y) && fabs(axis.x) <= fabs(axis.z) ? Vec3d{1, 0, 0}
+            : fabs(axis.y) <= fabs(axis.z)                                               ? Vec3d{0, 1, 0}
+                                                                                         : Vec3d{0, 0, 1};
+        const Vec3d e1 = unit(cross(other, axis)), e2 = cross(axis, e1);
+        s.cones.push() = {point((o.a + o.b) * 0.5),
+                          Convert<N>::direction(e1),
+                          Convert<N>::direction(e2),
+                          Convert<N>::direction(axis),
+                          radius(cosine * (o.ra + o.rb) / 2),
+                          radius(height / 2),
+                          bound(cone_bound(o)),
+                          Convert<N>::unit(cosine),
+                          Convert<N>::unit(sine),
+                          tag};
+    }
+
+    // The ball around the middle of the box of some corners.
+    void ball(const Vec3d* const* corners, uint32_t count, Point<N>& middle, typename N::Length& r) const
+    {
+        Box box;
+        for (uint32_t i = 0; i < count; i++)
+            box.add(*corners[i]);
+        const Vec3d centre = (box.low + box.high) * 0.5;
+        double far = 0;
+        for (uint32_t i = 0; i < count; i++)
+            far = fmax(far, length(*corners[i] - centre));
+        middle = point(centre);
+        r = bound(far);
+    }
+
+    // Does a figure still span more than a line once its corners are rounded? Corners that all fall on one point do not.
+    static bool spans(const Point<N>* corners, uint32_t count)
+    {
+        for (uint32_t i = 1; i < count; i++)
+            if (!(corners[i] == corners[0]))
+                return true;
+        return false;
+    }
+
+    Vec3d newell(const Object& o) const
+    {
+        Vec3d sum;
+        const Vec3d* v = d.vertices + o.vertex;
+        for (uint32_t i = 1; i + 1 < o.count; i++)
+            sum = sum + cross(v[i] - v[0], v[i + 1] - v[0]);
+        return sum;
+    }
+
+    void polygon(const Object& o, Tag tag)
+    {
+        const Vec3d* v = d.vertices + o.vertex;
+        Vec3d g = cross(v[1] - v[0], v[2] - v[1]);
+        if (length(g) <= 1e-12 * length(v[1] - v[0]) * length(v[2] - v[1]))
+            g = newell(o);
+        if (!(length(g) > 0) || !spans(s.vertices.data + o.vertex, o.count)) {
+            s.vanished++;
+            return;
+        }
+        Box box;
+        for (uint32_t i = 0; i < o.count; i++)
+            box.add(v[i]);
+        const Vec3d centre = (box.low + box.high) * 0.5;
+        double far = 0;
+        for (uint32_t i = 0; i < o.count; i++)
+            far = fmax(far, length(v[i] - centre));
+        s.polygons.push() = {Convert<N>::direction(unit(g)), point(centre), bound(far), o.vertex, o.count, tag};
+    }
+
+    void patch(const Object& o)
+    {
+        // Blended as they are given: only their proportion within the patch counts.
+        double longest = 0;
+        for (uint32_t i = 0; i < o.count; i++)
+            longest = fmax(longest, length(d.normals[o.vertex + i]));
+        s.normals.count = o.vertex + o.count;
+        for (uint32_t i = 0; i < o.count; i++)
+            s.normals.data[o.vertex + i] = Convert<N>::direction(d.normals[o.vertex + i] * (1 / longest));
+        for (uint32_t i = 1; i + 1 < o.count; i++, place++) {
+            const Vec3d* corners[3] = {d.vertices + o.vertex, d.vertices + o.vertex + i, d.vertices + o.vertex + i + 1};
+            const Vec3d g = cross(*corners[1] - *corners[0], *corners[2] - *corners[1]);
+            const Point<N> rounded[3] = {s.vertices.data[o.vertex], s.vertices.data[o.vertex + i],
+                                         s.vertices.data[o.vertex + i + 1]};
+            if (!(length(g) > 0) || !spans(rounded, 3)) {
+                s.vanished++;
+                continue;
+            }
+            Point<N> middle{};
+            typename N::Length r{};
+            ball(corners, 3, middle, r);
+            s.patches.push() = {Convert<N>::direction(unit(g)), middle, r, o.vertex, o.vertex + i, make_tag(place, o.fill)};
+        }
+    }
+
+    // Colours are divided by 2^exposure so that no sum of lights leaves the range of Colour.
+    void lights()
+    {
+        Vec3d sum = d.ambient;
+        for (uint32_t i = 0; i < d.light_count; i++)
+            sum = sum + d.lights[i].colour * 2;
+        s.exposure = 0;
+        if constexpr (N::is_fixed)
+            while (ldexp(fmax(largest(sum), largest(d.background)), -s.exposure) > range)
+                s.exposure++;
+        s.background = colour(d.background);
+        for (uint32_t i = 0; i < d.light_count; i++) {
+            const Light& l = d.lights[i];
+            if (l.sun) {
+                s.suns.push() = {Convert<N>::direction(unit(l.at)), colour(l.colour)};
+                continue;
+            }
+            Vec3d at = frame.point(l.at);
+            int shift = 0;
+            if constexpr (N::is_fixed)
+                for (; largest(at) > world; at = at * 0.5)
+                    shift++;
+            if (shift > 31) { // so far away that it is a sun
+                s.suns.push() = {Convert<N>::direction(unit(at)), colour(l.colour)};
+                continue;
+            }
+            s.lights.push() = {Convert<N>::point(at), shift, colour(l.colour)};
+        }
+    }
+    static constexpr double range = 7.99;
+
+    Rgb<N> colour(const Vec3d& c) const { return Convert<N>::rgb(c * ldexp(1, -s.exposure)); }
+    static Vec<typename N::Unit> surface(const Vec3d& c) { return Convert<N>::direction(c); }
+
+    void materials()
+    {
+        for (uint32_t i = 0; i < d.fill_count; i++) {
+            const Fill& f = d.fills[i];
+            s.mattes.push() = {surface(f.colour), colour(d.ambient * f.ambient), Convert<N>::unit(f.diffuse)};
+            s.highlights.push() = {Convert<N>::unit(f.highlight), Convert<N>::shine(f.shine)};
+            s.mirrors.push() = {Convert<N>::unit(f.mirror)};
+            s.transmits.push() = {Convert<N>::unit(f.transmit), Convert<N>::eta(1 / f.ior), Convert<N>::eta(f.ior)};
+            s.textures.push() = texture(f.texture);
+        }
+    }
+
+    TextureRef texture(const Texture& t)
+    {
+        constexpr double epsilon = 1.0 / 1024;
+        const double k = 1 / t.size;
+        const auto n = surface(t.colour);
+        const auto axis = [&](const Vec3d& direction, double offset, bool wraps) {
+            return Convert<N>::axis(direction * k, frame.origin, frame.scale, offset, wraps);
+        };
+        const auto lattice = [&](double offset) {
+            return Lattice<N>{axis({1, 0, 0}, offset, true), axis({0, 1, 0}, offset, true), axis({0, 0, 1}, offset, true)};
+        };
+        const auto ref = [](qray::TextureKind kind, uint32_t count) {
+            return TextureRef{kind, static_cast<uint16_t>(count - 1)};
+        };
+        const Vec3d a = length(t.axis) > 0 ? unit(t.axis) : Vec3d{0, 1, 0};
+        switch (t.kind) {
+        case TextureKind::none: break;
+        case TextureKind::checker:
+            s.checkers.push() = {n, lattice(epsilon)};
+            return ref(qray::TextureKind::checker, s.checkers.count);
+        case TextureKind::stripes:
+            s.stripes.push() = {n, axis(a, epsilon, true)};
+            return ref(qray::TextureKind::stripes, s.stripes.count);
+        case TextureKind::gradient:
+            s.gradients.push() = {n, axis(a, 0, false)};
+            return ref(qray::TextureKind::gradient, s.gradients.count);
+        case TextureKind::rings:
+            s.rings.push() = {n, axis({1, 0, 0}, 0, false), axis({0, 0, 1}, 0, false)};
+            return ref(qray::TextureKind::rings, s.rings.count);
+        case TextureKind::noise:
+            s.noises.push() = {n, lattice(0)};
+            return ref(qray::TextureKind::noise, s.noises.count);
+        case TextureKind::marble:
+            s.marbles.push() = {n, lattice(0), axis(a, 0, true)};
+            return ref(qray::TextureKind::marble, s.marbles.count);
+        case TextureKind::wood: {
+            const Vec3d other = fabs(a.x) <= fabs(a.y) && fabs(a.x) <= fabs(a.z) ? Vec3d{1, 0, 0}
+                : fabs(a.y) <= fabs(a.z)                                         ? Vec3d{0, 1, 0}
+                                                                                 : Vec3d{0, 0, 1};
+            const Vec3d e1 = unit(cross(other, a)), e2 = cross(a, e1);
+            s.woods.push() = {n, lattice(0), axis(e1, 0, false), axis(e2, 0, false)};
+            return ref(qray::TextureKind::wood, s.woods.count);
+        }
+        case TextureKind::brick: {
+            Lattice<N> l = lattice(epsilon);
+            l.y = axis({0, 2, 0}, epsilon, true);
+            s.bricks.push() = {n, l};
+            return ref(qray::TextureKind::brick, s.bricks.count);
+        }
+        }
+        return {qray::TextureKind::none, 0};
+    }
+
+    void camera()
+    {
+        const View& v = d.view;
+        const uint32_t width = settings.width != 0 ? settings.width : v.width;
+        const uint32_t height = settings.height != 0 ? settings.height : v.height;
+        const uint32_t n = settings.levels != 0 ? 1u << settings.levels : settings.grid;
+        const Vec3d w = unit(v.at - v.from);
+        const Vec3d u = unit(cross(w, unit(v.up)));
+        const Vec3d t = cross(u, w);
+        const double half = tan(v.angle * (M_PI / 360));
+        const double step = half / (n * height);
+        // |w|, |x u| and |y v| at most 2^60
+        const double most = fmax(1, fmax(half, half * width / height));
+        const double scale = ldexp(1, 60) / most;
+        s.camera = {point(v.from),
+                    Convert<N>::pencil(w, scale),
+                    Convert<N>::pencil(u * step, scale),
+                    Convert<N>::pencil(t * -step, scale),
+                    static_cast<uint16_t>(width),
+                    static_cast<uint16_t>(height),
+                    static_cast<uint16_t>(n)};
+        s.max_depth = static_cast<uint8_t>(settings.depth);
+        s.cutoff = Convert<N>::unit(settings.cutoff);
+        s.levels = static_cast<uint8_t>(settings.levels);
+        s.threshold = Convert<N>::unit(settings.threshold);
+    }
+
+    void effects()
+    {
+        Effects e;
+        e.sphere = s.spheres.count != 0;
+        e.disc = s.discs.count != 0;
+        e.cone = s.cones.count != 0;
+        e.polygon = s.polygons.count != 0;
+        e.patch = s.patches.count != 0;
+        e.checker = s.checkers.count != 0;
+        e.stripes = s.stripes.count != 0;
+        e.gradient = s.gradients.count != 0;
+        e.rings = s.rings.count != 0;
+        e.noise = s.noises.count != 0;
+        e.marble = s.marbles.count != 0;
+        e.wood = s.woods.count != 0;
+        e.brick = s.bricks.count != 0;
+        e.light = s.lights.count != 0;
+        e.sun = s.suns.count != 0;
+        bool lit = false, transmits = false;
+        for (uint32_t i = 0; i < d.fill_count; i++) {
+            const Fill& f = d.fills[i];
+            lit = lit || f.diffuse > 0 || f.highlight > 0;
+            e.highlight = e.highlight || f.highlight > 0;
+            e.fractional_shine = e.fractional_shine || (f.highlight > 0 && f.shine != floor(f.shine));
+            transmits = transmits || f.transmit > 0;
+            const bool deep = settings.depth > 1;
+            e.mirror = e.mirror || (deep && f.mirror > 0 && f.mirror >= settings.cutoff);
+            e.transmit = e.transmit || (deep && f.transmit > 0 && f.transmit + f.mirror >= settings.cutoff);
+        }
+        e.highlight = e.highlight && e.lights();
+        e.fractional_shine = e.fractional_shine && e.lights();
+        s.shadows = d.shadows && lit && e.lights();
+        e.shadow = s.shadows;
+        e.see_through = e.shadow && transmits;
+        e.grid = settings.levels == 0 && settings.grid > 1;
+        e.adaptive = settings.levels != 0;
+        e.depth = e.transmit ? static_cast<uint8_t>(settings.depth) : 1;
+        s.effects = e;
+    }
+};
+
+} // namespace qray::scene

@@ -1,0 +1,118 @@
+// From double to the quantities of a number system, to the nearest.
+#pragma once
+
+#include <math.h>
+
+#include <qray/lattice.hpp>
+
+#include "description.hpp"
+
+namespace qray::scene {
+
+inline Vec3d operator+(const Vec3d& a, const Vec3d& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3d operator-(const Vec3d& a, const Vec3d& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3d operator*(const Vec3d& a, double k) { return {a.x * k, a.y * k, a.z * k}; }
+inline double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3d cross(const Vec3d& a, const Vec3d& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+// Scaled first: squares of components near either end of double's range neither overflow nor vanish.
+inline double largest(const Vec3d& a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
+inline double length(const Vec3d& a)
+{
+    const double m = largest(a);
+    if (m == 0)
+        return 0;
+    const Vec3d b{a.x / m, a.y / m, a.z / m};
+    return m * sqrt(dot(b, b));
+}
+inline Vec3d unit(const Vec3d& a)
+{
+    const double m = largest(a);
+    const Vec3d b{a.x / m, a.y / m, a.z / m};
+    return b * (1 / sqrt(dot(b, b)));
+}
+
+template <class N>
+struct Convert {
+    template <class F>
+    static F fixed(double v) // F is a Fixed; |v| must be within its range
+    {
+        return F{static_cast<int32_t>(llrint(ldexp(v, F::frac)))};
+    }
+    static typename N::Length length(double v) { return number<typename N::Length>(v); }
+    static typename N::Unit unit(double v) { return number<typename N::Unit>(v); }
+    static typename N::Colour colour(double v) { return number<typename N::Colour>(v); }
+    static typename N::Eta eta(double v) { return number<typename N::Eta>(v); }
+    static Point<N> point(const Vec3d& p) { return {length(p.x), length(p.y), length(p.z)}; }
+    static Direction<N> direction(const Vec3d& d) { return {unit(d.x), unit(d.y), unit(d.z)}; }
+    static Rgb<N> rgb(const Vec3d& c) { return {colour(c.x), colour(c.y), colour(c.z)}; }
+
+    // 1/r for r > 0.
+    static typename N::Scale inverse(typename N::Length r)
+    {
+        if constexpr (N::is_fixed) {
+            const int shift = count_leading_zeros(static_cast<uint32_t>(r.raw)) - 1; // r << shift in [2^30, 2^31)
+            const double mantissa = ldexp(1, 61 - shift) / r.raw;
+            return {mantissa >= 2147483647.0 ? INT32_MAX : static_cast<int32_t>(llrint(mantissa)), shift};
+        } else {
+            return 1 / r;
+        }
+    }
+    static typename N::Shine shine(double e)
+    {
+        const double whole = floor(e);
+        if constexpr (N::is_fixed)
+            return {static_cast<uint32_t>(whole), static_cast<uint32_t>(fmin(4294967295.0, ldexp(e - whole, 32)))};
+        else
+            return {static_cast<uint32_t>(whole), static_cast<typename N::Unit>(e - whole)};
+    }
+
+    // The lattice coordinate row . (q / scale + origin) + offset of a point q in the moved and scaled scene;
+    // row is in 1/size. A lattice wraps where cells no longer fit; a distance is clamped.
+    static LatticeAxis<N> axis(const Vec3d& row, const Vec3d& origin, double scale, double offset, bool wraps)
+    {
+        const double whole = dot(row, origin) + offset;
+        const Vec3d r = row * (1 / scale);
+        if constexpr (N::is_fixed) {
+            // The largest component gets 30 bits.
+            int exponent = 0;
+            frexp(largest(r), &exponent);
+            const int up = 30 - exponent;
+            const auto mantissa = [up](double v) { return static_cast<int32_t>(llrint(ldexp(v, up))); };
+            // raw q is q 2^frac: row.q 2^32 = (mantissas . raw) 2^(32 - up - frac)
+            int shift = 32 - up - N::Length::frac;
+            shift = shift > 62 ? 62 : shift < -63 ? -63 : shift;
+            const double turn = ldexp(1, 32), limit = ldexp(1, 29);
+            const double folded = wraps ? whole - turn * floor(whole / turn + 0.5) : fmax(-limit, fmin(limit, whole));
+            return {mantissa(r.x), mantissa(r.y), mantissa(r.z), shift, llrint(ldexp(folded, 32))};
+        } else {
+            using F = typename N::Length;
+            const double cell = floor(whole);
+            return {static_cast<F>(r.x), static_cast<F>(r.y), static_cast<F>(r.z), static_cast<F>(whole - cell),
+                    static_cast<uint32_t>(static_cast<int64_t>(fmod(cell, 4294967296.0))), static_cast<F>(whole)};
+        }
+    }
+
+    static Pencil<N> pencil(const Vec3d& d, double scale)
+    {
+        if constexpr (N::is_fixed)
+            return {llrint(d.x * scale), llrint(d.y * scale), llrint(d.z * scale)};
+        else
+            return {static_cast<typename N::Unit>(d.x), static_cast<typename N::Unit>(d.y),
+                    static_cast<typename N::Unit>(d.z)};
+    }
+
+private:
+    template <class F>
+    static F number(double v)
+    {
+        if constexpr (N::is_fixed)
+            return fixed<F>(v);
+        else
+            return static_cast<F>(v);
+    }
+};
+
+} // namespace qray::scene

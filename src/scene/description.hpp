@@ -1,0 +1,107 @@
+// What a scene text says, in double precision and in the file's own units and order: the parser's
+// result and the builder's input. Fixed arrays; a desktop touches only the pages that a scene fills.
+//
+// What parse() promises of all lengths, so that neither their fourth powers nor quotients of two squares
+// leave double's range: every coordinate is at most 1e15 in size; of each direction, normal and axis, of
+// at - from and of a cone's b - a the largest component is at least 1e-60 (a smaller one is zero: an error),
+// and so is each radius that is not 0 (an object of none is dropped), each texture size and `far`.
+// A polygon has a plane: (v1 - v0) x (v2 - v1) or, where these are in line, its Newell vector is not zero.
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <new>
+
+namespace qray::scene {
+
+struct Limits {
+    static constexpr uint32_t objects = 262'144;    // entities after parsing (a patch is one)
+    static constexpr uint32_t vertices = 1'048'576; // corners of all polygons and patches
+    static constexpr uint32_t materials = 4'096;    // distinct fills
+    static constexpr uint32_t lights = 64;
+    static constexpr uint32_t resolution = 32'768;  // pixels along either edge
+    static constexpr uint32_t text = 64u << 20;     // bytes of scene text
+};
+
+struct Vec3d {
+    double x = 0, y = 0, z = 0;
+    friend bool operator==(const Vec3d&, const Vec3d&) = default;
+};
+
+struct View {
+    Vec3d from, at, up;
+    double angle = 0; // degrees, full vertical field, in (0, 180)
+    uint32_t width = 0, height = 0;
+};
+
+enum class TextureKind : uint8_t { none, checker, stripes, gradient, rings, noise, marble, wood, brick };
+
+struct Texture {
+    TextureKind kind = TextureKind::none;
+    Vec3d colour;    // N, the texture's own colour
+    double size = 1; // > 0
+    Vec3d axis;      // as given, not normalised; stripes, gradient, marble and wood only, else zero
+    friend bool operator==(const Texture&, const Texture&) = default;
+};
+
+struct Fill {
+    Vec3d colour{1, 1, 1};
+    double ambient = 1, diffuse = 1, highlight = 0, shine = 1, mirror = 0, transmit = 0;
+    double ior = 1; // <= 0 in the text reads as 1
+    Texture texture;
+    friend bool operator==(const Fill&, const Fill&) = default;
+};
+
+struct Light {
+    bool sun = false;
+    Vec3d at;     // position, or for a sun the direction it shines from (not normalised)
+    Vec3d colour; // resolved: 1/sqrt(n) where the text gave none
+};
+
+enum class Shape : uint8_t { sphere, cone, polygon, patch, plane, disc };
+
+struct Object {
+    Shape shape = Shape::sphere;
+    uint32_t fill = 0;                 // index into fills
+    Vec3d a;                           // centre | base | - | - | point | centre
+    Vec3d b;                           // - | apex end | - | - | normal | normal (as given)
+    double ra = 0, rb = 0;             // radius, - | base, apex radius | - | - | - | radius, -
+    uint32_t vertex = 0, count = 0;    // polygon, patch: first corner, number of corners
+};
+
+struct Description {
+    View view;
+    Vec3d background;
+    Vec3d ambient{0.2, 0.2, 0.2};
+    bool shadows = true;
+    double far = 0; // 0: the default, 16 scene radii
+    uint32_t object_count = 0, vertex_count = 0, fill_count = 0, light_count = 0;
+    uint32_t dropped = 0; // objects without extent, left out
+    char comment[256] = {}; // the first comment that says something, without its '#'; else empty
+    Object objects[Limits::objects];
+    Vec3d vertices[Limits::vertices];
+    Vec3d normals[Limits::vertices]; // patches only, at the corner's index, as given
+    Fill fills[Limits::materials];
+    Light lights[Limits::lights];
+};
+
+// Room for a Description in static storage: all zero until parse() fills it. (A Description of its own there
+// would put tens of megabytes of default values into the program's file, or touch them all as it starts.)
+struct DescriptionStorage {
+    Description& get() { return *std::launder(reinterpret_cast<Description*>(bytes)); }
+    alignas(Description) unsigned char bytes[sizeof(Description)];
+};
+
+// One line for people: file:line:column: text.
+struct Error {
+    char text[512] = {};
+};
+
+// Reads the scene text of `size` bytes into `out` (reset first, but for what lies in its arrays beyond the
+// counts; it is too large for a stack). `name` stands in messages. Returns false, fills `error` and leaves
+// `out` unspecified where the text is no scene of IMAGE.md. Every rule of the language that does not depend
+// on a number system is checked here. Threads may parse into different Descriptions.
+bool parse(const char* name, const char* text, size_t size, Description& out, Error& error);
+
+} // namespace qray::scene
