@@ -1,0 +1,484 @@
+// The grammar of the scene language, entity by entity, and all its checks.
+#include "reader.hpp"
+
+#include <bit>
+#include <cstdio>
+#include <string_view>
+
+namespace qray::scene {
+
+namespace {
+
+// Words that stand only inside of an entity, for the message where one stands elsewhere.
+struct InnerWord {
+    std::string_view word;
+    const char* entity;
+};
+constexpr InnerWord inner_words[] = {
+    {"from", "v"},            {"at", "v"},              {"up", "v"},           {"angle", "v"},
+    {"hither", "v"},          {"resolution", "v"},      {"colour", "material"}, {"ambient", "material"},
+    {"diffuse", "material"},  {"highlight", "material"}, {"shine", "material"}, {"mirror", "material"},
+    {"transmit", "material"}, {"ior", "material"},      {"on", "shadows"},     {"off", "shadows"},
+};
+
+struct TextureWord {
+    std::string_view word;
+    TextureKind kind;
+    bool has_axis;
+};
+constexpr TextureWord texture_words[] = {
+    {"checker", TextureKind::checker, false},  {"stripes", TextureKind::stripes, true},
+    {"gradient", TextureKind::gradient, true}, {"rings", TextureKind::rings, false},
+    {"noise", TextureKind::noise, false},      {"marble", TextureKind::marble, true},
+    {"wood", TextureKind::wood, true},         {"brick", TextureKind::brick, false},
+};
+
+Vec3d operator-(const Vec3d& p, const Vec3d& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
+Vec3d operator+(const Vec3d& p, const Vec3d& q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
+double dot(const Vec3d& p, const Vec3d& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
+Vec3d cross(const Vec3d& p, const Vec3d& q) {
+    return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+}
+
+// Whether n >= 3 corners enclose something. What rounding each coordinate to a double could make of an area
+// of 0 (up to 2^-50 times the largest coordinate times the extent, in each product) is none.
+bool has_area(const Vec3d* corners, uint32_t n, bool fan) {
+    double coordinate = largest_component(corners[0]), extent = 0;
+    for (uint32_t i = 1; i < n; ++i) {
+        coordinate = std::max(coordinate, largest_component(corners[i]));
+        extent = std::max(extent, largest_component(corners[i] - corners[0]));
+    }
+    if (extent < smallest_length) return false;
+    const double noise = 0x1p-50 * extent * coordinate;
+    Vec3d sum;
+    for (uint32_t i = 1; i + 1 < n; ++i) {
+        const Vec3d area = cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+        // A polygon whose lobes cancel in the sum still has the plane of its first corner, and is drawn.
+        if ((fan || i == 1) && largest_component(area) > noise) return true;
+        sum = sum + area;
+    }
+    return !fan && largest_component(sum) > noise;
+}
+
+uint64_t hash_of(const Fill& fill) {
+    const Texture& texture = fill.texture;
+    const double values[] = {
+        fill.colour.x,    fill.colour.y, fill.colour.z,  fill.ambient,   fill.diffuse,     fill.highlight,
+        fill.shine,       fill.mirror,   fill.transmit,  fill.ior,       texture.colour.x, texture.colour.y,
+        texture.colour.z, texture.size,  texture.axis.x, texture.axis.y, texture.axis.z,
+    };
+    uint64_t hash = static_cast<uint64_t>(texture.kind);
+    for (const double value : values) {
+        hash = (hash ^ std::bit_cast<uint64_t>(value)) * 0x9e3779b97f4a7c15;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
+class Parser : private Reader {
+public:
+    Parser(const char* name, const char* text, size_t size, Description& out, Error& error)
+        : Reader(name, text, size, error), size_(size), out_(out) {}
+
+    bool parse();
+
+private:
+    bool entity();
+    bool view();
+    bool light(bool sun);
+    bool fill();
+    bool material();
+    bool texture();
+    bool shadows();
+    bool sphere();
+    bool cone();
+    bool corners(Shape shape);
+    bool plane();
+    bool disc();
+    bool finish();
+
+    bool expect_field(std::string_view word);
+    bool begin_object();
+    bool add(Object object);
+    bool drop() {
+        ++out_.dropped;
+        return true;
+    }
+    bool use_fill(uint32_t& index);
+
+    bool unknown_entity();
+    void keep_comment();
+
+    static constexpr uint32_t none = UINT32_MAX;
+    static constexpr uint32_t chains = 512;
+    static_assert(Limits::materials < UINT16_MAX);
+
+    size_t size_;
+    Description& out_;
+    Token entity_;                             // the entity being read
+    uint32_t view_line_ = 0, object_line_ = 0; // of the view, of the first object; 0 before it
+    Fill fill_;
+    uint32_t fill_index_ = none; // of fill_ in out_.fills, once an object has used it
+    // The fills by their hash, in chains: a fill's number is its index + 1, and 0 ends a chain.
+    uint16_t first_in_chain_[chains] = {};
+    uint16_t next_in_chain_[Limits::materials]; // by index
+    bool light_is_default_[Limits::lights] = {};
+};
+
+// The view and the lights.
+
+bool Parser::expect_field(std::string_view word) {
+    token_ = lexer_.next();
+    if (token_.kind != TokenKind::end && token_.text == word) return true;
+    char what[40];
+    snprintf(what, sizeof what, "the field '%.*s' of 'v'", static_cast<int>(word.size()), word.data());
+    return expected("", what);
+}
+
+bool Parser::view() {
+    if (view_line_ != 0) return fail(entity_.at, "a second view; the first is in line %u", view_line_);
+    view_line_ = entity_.at.line;
+    View& view = out_.view;
+    double hither = 0;
+    if (!expect_field("from") || !point("'from'", view.from)) return false;
+    if (!expect_field("at") || !point("'at'", view.at)) return false;
+    const Vec3d forward = view.at - view.from;
+    if (is_zero(forward)) return fail(vector_at_, "'at' is where 'from' is; expected another point");
+    if (!expect_field("up") || !direction("'up'", view.up)) return false;
+    const Vec3d side = cross(forward, view.up);
+    if (dot(side, side) < 1e-18 * dot(forward, forward) * dot(view.up, view.up)) {
+        return fail(vector_at_, "'up' lies along the view from 'from' to 'at'; expected another direction");
+    }
+    if (!expect_field("angle") || !number("'angle'", angle_range, view.angle)) return false;
+    if (!expect_field("hither") || !any_number("'hither'", "", hither)) return false;
+    return expect_field("resolution") &&
+           count("the width of 'resolution'", 1, Limits::resolution, "resolution", view.width) &&
+           count("the height of 'resolution'", 1, Limits::resolution, "resolution", view.height);
+}
+
+bool Parser::light(bool sun) {
+    if (object_line_ != 0) {
+        return fail(entity_.at,
+                    "a light after the first object, which is in line %u; expected all lights before it",
+                    object_line_);
+    }
+    if (out_.light_count == Limits::lights) {
+        return fail(entity_.at, "too many lights; expected at most %u (limit 'lights')", Limits::lights);
+    }
+    Light light;
+    light.sun = sun;
+    bool ok = sun ? direction("the direction of a sun", light.at) : point("the place of a light", light.at);
+    if (!ok) return false;
+    const bool has_colour = lexer_.next().kind == TokenKind::number;
+    lexer_.unread();
+    light_is_default_[out_.light_count] = !has_colour;
+    if (has_colour) ok = colour("the colour of a light", light_range, light.colour);
+    if (!ok) return false;
+    out_.lights[out_.light_count++] = light;
+    return true;
+}
+
+// What a surface looks like.
+
+bool Parser::fill() {
+    Fill fill;
+    double kd = 0, ks = 0;
+    if (!colour("the colour of a fill", share_range, fill.colour) ||
+        !number("Kd of a fill", share_range, kd) || !number("Ks of a fill", share_range, ks) ||
+        !number("the shine of a fill", shine_range, fill.shine) ||
+        !number("T of a fill", share_range, fill.transmit) || !ior("the ior of a fill", fill.ior)) {
+        return false;
+    }
+    fill.ambient = fill.diffuse = kd;
+    fill.highlight = fill.mirror = ks;
+    fill_ = fill;
+    fill_index_ = none;
+    return true;
+}
+
+bool Parser::material() {
+    fill_ = Fill{};
+    fill_index_ = none;
+    for (;;) {
+        token_ = lexer_.next();
+        const std::string_view word = token_.text;
+        bool ok = true;
+        if (word == "colour") {
+            ok = colour("'colour'", share_range, fill_.colour);
+        } else if (word == "ambient") {
+            ok = number("'ambient'", share_range, fill_.ambient);
+        } else if (word == "diffuse") {
+            ok = number("'diffuse'", share_range, fill_.diffuse);
+        } else if (word == "highlight") {
+            ok = number("'highlight'", share_range, fill_.highlight);
+        } else if (word == "shine") {
+            ok = number("'shine'", shine_range, fill_.shine);
+        } else if (word == "mirror") {
+            ok = number("'mirror'", share_range, fill_.mirror);
+        } else if (word == "transmit") {
+            ok = number("'transmit'", share_range, fill_.transmit);
+        } else if (word == "ior") {
+            ok = ior("'ior'", fill_.ior);
+        } else {
+            lexer_.unread();
+            return true;
+        }
+        if (!ok) return false;
+    }
+}
+
+bool Parser::texture() {
+    token_ = lexer_.next();
+    if (token_.text == "image" || token_.text == "globe") {
+        return fail(token_.at, "the image textures 'image' and 'globe' are not supported yet");
+    }
+    for (const TextureWord& known : texture_words) {
+        if (token_.text != known.word) continue;
+        Texture texture;
+        texture.kind = known.kind;
+        if (!colour("the colour of a texture", share_range, texture.colour)) return false;
+        if (!number("the size of a texture", size_range, texture.size)) return false;
+        if (known.has_axis && !direction("the axis of a texture", texture.axis)) return false;
+        fill_.texture = texture;
+        fill_index_ = none;
+        return true;
+    }
+    return expected("", "a texture (checker stripes gradient rings noise marble wood brick)");
+}
+
+bool Parser::use_fill(uint32_t& index) {
+    if (fill_index_ == none) {
+        uint16_t& first = first_in_chain_[hash_of(fill_) % chains];
+        uint32_t number = first;
+        while (number != 0 && out_.fills[number - 1] != fill_) number = next_in_chain_[number - 1];
+        if (number == 0) {
+            if (out_.fill_count == Limits::materials) {
+                return fail(entity_.at, "too many different fills; expected at most %u (limit 'materials')",
+                            Limits::materials);
+            }
+            next_in_chain_[out_.fill_count] = first;
+            out_.fills[out_.fill_count++] = fill_;
+            number = first = static_cast<uint16_t>(out_.fill_count);
+        }
+        fill_index_ = number - 1;
+    }
+    index = fill_index_;
+    return true;
+}
+
+// Objects.
+
+bool Parser::begin_object() {
+    if (view_line_ == 0) return fail(entity_.at, "an object before the view; expected 'v' first");
+    if (object_line_ == 0) object_line_ = entity_.at.line;
+    return true;
+}
+
+bool Parser::add(Object object) {
+    if (out_.object_count == Limits::objects) {
+        return fail(entity_.at, "too many objects; expected at most %u (limit 'objects')", Limits::objects);
+    }
+    if (!use_fill(object.fill)) return false;
+    out_.objects[out_.object_count++] = object;
+    return true;
+}
+
+bool Parser::sphere() {
+    Object object;
+    object.shape = Shape::sphere;
+    if (!begin_object() || !point("the centre of a sphere", object.a) ||
+        !radius("the radius of a sphere", object.ra)) {
+        return false;
+    }
+    return object.ra == 0 ? drop() : add(object);
+}
+
+bool Parser::cone() {
+    Object object;
+    object.shape = Shape::cone;
+    if (!begin_object() || !point("the base of a cone", object.a) ||
+        !radius("the base radius of a cone", object.ra) || !point("the apex of a cone", object.b)) {
+        return false;
+    }
+    if (is_zero(object.b - object.a)) {
+        return fail(vector_at_, "the apex of a cone is where its base is; expected an axis that is not zero");
+    }
+    if (!radius("the apex radius of a cone", object.rb)) return false;
+    return object.ra == 0 && object.rb == 0 ? drop() : add(object);
+}
+
+bool Parser::corners(Shape shape) {
+    const bool patch = shape == Shape::patch;
+    Object object;
+    object.shape = shape;
+    object.vertex = out_.vertex_count;
+    if (!begin_object() ||
+        !count(patch ? "the number of vertices of a patch" : "the number of vertices of a polygon", 3,
+               UINT32_MAX, "", object.count)) {
+        return false;
+    }
+    if (object.count > Limits::vertices - out_.vertex_count) {
+        return fail(token_.at,
+                    "%s vertices are too many after the %u so far; expected at most %u (limit 'vertices')",
+                    Shown(token_.text).text, out_.vertex_count, Limits::vertices);
+    }
+    const char* vertex = patch ? "a vertex of a patch" : "a vertex of a polygon";
+    for (uint32_t i = object.vertex; i != object.vertex + object.count; ++i) {
+        if (!point(vertex, out_.vertices[i])) return false;
+        if (patch && !direction("a normal of a patch", out_.normals[i])) return false;
+    }
+    if (!has_area(out_.vertices + object.vertex, object.count, patch)) return drop();
+    if (!add(object)) return false;
+    out_.vertex_count += object.count;
+    return true;
+}
+
+bool Parser::plane() {
+    Object object;
+    object.shape = Shape::plane;
+    return begin_object() && point("the point of a plane", object.a) &&
+           direction("the normal of a plane", object.b) && add(object);
+}
+
+bool Parser::disc() {
+    Object object;
+    object.shape = Shape::disc;
+    if (!begin_object() || !point("the centre of a disc", object.a) ||
+        !direction("the normal of a disc", object.b) || !radius("the radius of a disc", object.ra)) {
+        return false;
+    }
+    return object.ra == 0 ? drop() : add(object);
+}
+
+// The whole.
+
+bool Parser::shadows() {
+    token_ = lexer_.next();
+    if (token_.text != "on" && token_.text != "off") return expected("", "'on' or 'off' after 'shadows'");
+    out_.shadows = token_.text == "on";
+    return true;
+}
+
+bool Parser::unknown_entity() {
+    const Shown shown(entity_.text);
+    const char* home = nullptr;
+    for (const InnerWord& inner : inner_words) {
+        if (entity_.text == inner.word) home = inner.entity;
+    }
+    for (const TextureWord& texture : texture_words) {
+        if (entity_.text == texture.word) home = "texture";
+    }
+    if (home != nullptr) {
+        return fail(entity_.at, "expected an entity, found '%s', which stands in '%s'", shown.text, home);
+    }
+    return fail(entity_.at,
+                "unknown entity '%s'; expected one of v b l f s c p pp ambientlight sun material plane disc "
+                "texture shadows far",
+                shown.text);
+}
+
+bool Parser::entity() {
+    const std::string_view word = entity_.text;
+    if (word.size() == 1) {
+        switch (word[0]) {
+        case 'v':
+            return view();
+        case 'b':
+            return colour("the background", light_range, out_.background);
+        case 'l':
+            return light(false);
+        case 'f':
+            return fill();
+        case 's':
+            return sphere();
+        case 'c':
+            return cone();
+        case 'p':
+            return corners(Shape::polygon);
+        default:
+            return unknown_entity();
+        }
+    }
+    if (word == "pp") return corners(Shape::patch);
+    if (word == "material") return material();
+    if (word == "texture") return texture();
+    if (word == "plane") return plane();
+    if (word == "disc") return disc();
+    if (word == "sun") return light(true);
+    if (word == "ambientlight") return colour("the ambient light", light_range, out_.ambient);
+    if (word == "shadows") return shadows();
+    if (word == "far") return number("'far'", size_range, out_.far);
+    return unknown_entity();
+}
+
+void Parser::keep_comment() {
+    const std::string_view comment = lexer_.comment();
+    size_t length = comment.size();
+    if (length >= sizeof out_.comment) {
+        length = sizeof out_.comment - 1;
+        // Not in the middle of a UTF-8 sequence.
+        while (length > 0 && (static_cast<unsigned char>(comment[length]) & 0xc0) == 0x80) --length;
+    }
+    for (size_t i = 0; i < length; ++i) {
+        const unsigned char c = static_cast<unsigned char>(comment[i]);
+        out_.comment[i] = c < 0x20 || c == 0x7f ? ' ' : comment[i];
+    }
+    out_.comment[length] = 0;
+}
+
+bool Parser::finish() {
+    if (view_line_ == 0) return fail(token_.at, "the file ends without a view; expected 'v'");
+    if (out_.light_count != 0) {
+        const double white = 1 / std::sqrt(static_cast<double>(out_.light_count));
+        for (uint32_t i = 0; i < out_.light_count; ++i) {
+            if (light_is_default_[i]) out_.lights[i].colour = {white, white, white};
+        }
+    }
+    keep_comment();
+    return true;
+}
+
+bool Parser::parse() {
+    if (size_ > Limits::text) {
+        return fail({}, "a text of %zu bytes; expected at most %u (limit 'text')", size_, Limits::text);
+    }
+    for (;;) {
+        const Token before = entity_;
+        entity_ = token_ = lexer_.next();
+        switch (token_.kind) {
+        case TokenKind::end:
+            return finish();
+        case TokenKind::bad:
+            return bad_byte();
+        case TokenKind::number:
+            if (before.text.empty()) return expected("", "an entity");
+            return fail(token_.at,
+                        "expected an entity, found '%s'; the '%s' in line %u is complete without it",
+                        Shown(token_.text).text, Shown(before.text).text, before.at.line);
+        case TokenKind::word:
+            if (!entity()) return false;
+            break;
+        }
+    }
+}
+
+void reset(Description& out) {
+    out.view = View{};
+    out.background = Vec3d{};
+    out.ambient = Vec3d{0.2, 0.2, 0.2};
+    out.shadows = true;
+    out.far = 0;
+    out.object_count = out.vertex_count = out.fill_count = out.light_count = 0;
+    out.dropped = 0;
+    out.comment[0] = 0;
+}
+
+} // namespace
+
+bool parse(const char* name, const char* text, size_t size, Description& out, Error& error) {
+    reset(out);
+    error.text[0] = 0;
+    return Parser(name, text, size, out, error).parse();
+}
+
+} // namespace qray::scene

@@ -1,0 +1,151 @@
+#include "reader.hpp"
+
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+
+namespace qray::scene {
+
+namespace {
+
+// Appends `text` with its control bytes as \x1b, as far as there is room.
+void append(char*& to, const char* end, const char* text) {
+    for (; *text != 0 && to < end; ++text) {
+        const unsigned char c = static_cast<unsigned char>(*text);
+        if (c >= 0x20 && c != 0x7f) {
+            *to++ = *text;
+        } else if (end - to >= 4) {
+            const char* hex = "0123456789abcdef";
+            *to++ = '\\';
+            *to++ = 'x';
+            *to++ = hex[c >> 4];
+            *to++ = hex[c & 15];
+        } else {
+            break;
+        }
+    }
+}
+
+} // namespace
+
+Shown::Shown(std::string_view token) {
+    constexpr size_t longest = sizeof text - 1;
+    const bool cut = token.size() > longest;
+    const size_t kept = cut ? longest - 3 : token.size();
+    memcpy(text, token.data(), kept);
+    memcpy(text + kept, cut ? "..." : "", cut ? 4 : 1);
+}
+
+bool Reader::fail(Position at, const char* format, ...) {
+    constexpr size_t longest_name = 200;
+    char name[longest_name] = {};
+    char* to = name;
+    const size_t length = strlen(name_);
+    const bool cut = length > longest_name / 2;
+    const char* from = cut ? name_ + length - longest_name / 2 : name_;
+    if (cut) {
+        append(to, name + sizeof name - 1, "...");
+        while ((static_cast<unsigned char>(*from) & 0xc0) == 0x80) ++from; // the rest of a UTF-8 sequence
+    }
+    append(to, name + sizeof name - 1, from);
+
+    const int head = snprintf(error_.text, sizeof error_.text, "%s:%u:%u: ", name, at.line, at.column);
+    va_list values;
+    va_start(values, format);
+    vsnprintf(error_.text + head, sizeof error_.text - static_cast<size_t>(head), format, values);
+    va_end(values);
+    return false;
+}
+
+bool Reader::bad_byte() {
+    return fail(token_.at,
+                "found the byte 0x%02x; outside of comments a scene is printable ASCII and white space",
+                static_cast<unsigned>(static_cast<unsigned char>(token_.text[0])));
+}
+
+bool Reader::expected(const char* part, const char* what) {
+    switch (token_.kind) {
+    case TokenKind::bad:
+        return bad_byte();
+    case TokenKind::end:
+        return fail(token_.at, "the file ends where %s%s was expected", part, what);
+    case TokenKind::word:
+    case TokenKind::number:
+        break;
+    }
+    return fail(token_.at, "expected %s%s, found '%s'", part, what, Shown(token_.text).text);
+}
+
+bool Reader::any_number(const char* what, const char* part, double& value) {
+    token_ = lexer_.next();
+    if (token_.kind == TokenKind::end || token_.kind == TokenKind::bad) return expected(part, what);
+    const char* why = "";
+    switch (read_number(token_.text, value)) {
+    case NumberError::none:
+        return true;
+    case NumberError::malformed:
+        why = token_.kind == TokenKind::word ? "not a number" : "not a number in plain decimal or e-notation";
+        break;
+    case NumberError::not_finite:
+        why = "not a finite number";
+        break;
+    case NumberError::too_large:
+        why = "too large for a number";
+        break;
+    }
+    const Shown shown(token_.text);
+    return fail(token_.at, "expected %s%s, found '%s', which is %s", part, what, shown.text, why);
+}
+
+bool Reader::number(const char* what, const char* part, const Range& range, double& value) {
+    if (!any_number(what, part, value)) return false;
+    if (value >= range.low && value <= range.high) return true;
+    return fail(token_.at, "%s%s is %s; expected %s", part, what, Shown(token_.text).text, range.text);
+}
+
+bool Reader::ior(const char* what, double& value) {
+    if (!any_number(what, "", value)) return false;
+    if (value <= 0) value = 1;
+    if (value >= ior_range.low && value <= ior_range.high) return true;
+    return fail(token_.at, "%s is %s; expected %s", what, Shown(token_.text).text, ior_range.text);
+}
+
+bool Reader::count(const char* what, uint32_t low, uint32_t high, const char* limit, uint32_t& value) {
+    token_ = lexer_.next();
+    if (token_.kind == TokenKind::end || token_.kind == TokenKind::bad) return expected("", what);
+    const Shown shown(token_.text);
+    if (!read_count(token_.text, value)) {
+        return fail(token_.at, "expected %s, found '%s', which is not in digits alone", what, shown.text);
+    }
+    if (value < low) return fail(token_.at, "%s is %s; expected at least %u", what, shown.text, low);
+    if (value > high) {
+        return fail(token_.at, "%s is %s; expected at most %u (limit '%s')", what, shown.text, high, limit);
+    }
+    return true;
+}
+
+bool Reader::radius(const char* what, double& value) {
+    if (!number(what, length_range, value)) return false;
+    value = std::fabs(value);
+    if (value < smallest_length) value = 0;
+    return true;
+}
+
+bool Reader::point(const char* what, Vec3d& value) {
+    if (!number(what, "x of ", length_range, value.x)) return false;
+    vector_at_ = token_.at;
+    return number(what, "y of ", length_range, value.y) && number(what, "z of ", length_range, value.z);
+}
+
+bool Reader::direction(const char* what, Vec3d& value) {
+    if (!point(what, value)) return false;
+    if (is_zero(value)) return fail(vector_at_, "%s is zero; expected a vector with a direction", what);
+    return true;
+}
+
+bool Reader::colour(const char* what, const Range& range, Vec3d& value) {
+    return number(what, "red of ", range, value.x) && number(what, "green of ", range, value.y) &&
+           number(what, "blue of ", range, value.z);
+}
+
+} // namespace qray::scene
