@@ -11,6 +11,12 @@
 
 #define QRAY_INLINE inline __attribute__((always_inline))
 #define QRAY_NOINLINE __attribute__((noinline))
+// One copy where flash is scarce; elsewhere the compiler decides.
+#if defined(__ARM_ARCH_6M__)
+#define QRAY_SHARED __attribute__((noinline))
+#else
+#define QRAY_SHARED
+#endif
 
 // ARMv6-M multiplies 32 by 32 bits to 32 bits only; the library's 64-bit product takes 48 instructions.
 #if defined(__ARM_ARCH_6M__) && defined(__thumb__)
@@ -60,6 +66,27 @@ constexpr int soft_clz(uint32_t x)
     return x > 1 ? n - 2 : n - static_cast<int>(x);
 }
 
+constexpr int soft_zero_pairs(uint32_t x)
+{
+    int n = 15;
+    uint32_t high = x >> 16;
+    if (high != 0) {
+        n -= 8;
+        x = high;
+    }
+    high = x >> 8;
+    if (high != 0) {
+        n -= 4;
+        x = high;
+    }
+    high = x >> 4;
+    if (high != 0) {
+        n -= 2;
+        x = high;
+    }
+    return x >> 2 != 0 ? n - 1 : n;
+}
+
 }  // namespace detail
 
 // Leading zero bits; 32 for 0.
@@ -84,6 +111,16 @@ constexpr int count_leading_zeros(uint64_t x)
         above = 32;
     }
     return above + count_leading_zeros(top);
+}
+
+// Half the number of leading zero bits, rounded down, for x > 0.
+constexpr int leading_zero_pairs(uint32_t x)
+{
+#if QRAY_SOFT_CLZ
+    return detail::soft_zero_pairs(x);
+#else
+    return __builtin_clz(x) >> 1;
+#endif
 }
 
 // a * b, exact.

@@ -130,8 +130,9 @@ constexpr bool intersect(const Cone<N>& s, const Ray<N>& ray, typename N::Length
 }
 
 template <class N>
-constexpr int crossings(const Cone<N>& s, const Ray<N>& ray, typename N::Length limit)
+constexpr int crossings(const Cone<N>& s, const Ray<N>& ray, typename N::Length distance)
 {
+    const auto limit = distance - N::light_clearance;
     typename N::Length t[2]{};
     const int n = meetings(s, ray, limit, t);
     return (n > 0 && t[0] < limit) + (n > 1 && t[1] < limit);

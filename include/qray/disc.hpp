@@ -45,11 +45,21 @@ QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typena
     return norm2<N>(w) <= r * r;
 }
 
+// Is a crossing of a plane at t before a light at `distance`, and not at it? Measured across the plane, so that a
+// light that lies in it is not blocked however flat the ray.
+template <class N>
+QRAY_INLINE constexpr bool before_light(const Direction<N>& normal, const Ray<N>& ray, typename N::Length t,
+                                        typename N::Length distance)
+{
+    const auto across = N::length((distance - t) * N::unit(dot<N>(ray.direction, normal)));
+    return across > N::light_clearance || -across > N::light_clearance;
+}
+
 template <class N>
 QRAY_INLINE constexpr int crossings(const Disc<N>& s, const Ray<N>& ray, typename N::Length limit)
 {
     typename N::Length t{};
-    return intersect(s, ray, limit, t) && t < limit;
+    return intersect(s, ray, limit, t) && before_light<N>(s.normal, ray, t, limit);
 }
 
 template <class N>

@@ -14,8 +14,8 @@ struct Light {
     Rgb<N> colour;
 };
 
-// The unit vector from q to the light and the distance at which to stop looking for what is in its way; false
-// where the light stands at q itself.
+// The unit vector from q to the light, and its distance, clamped to the range of Length; false where the light
+// stands at q itself.
 template <class N>
 QRAY_INLINE constexpr bool towards(const Light<N>& light, const Point<N>& q, Direction<N>& l,
                                    typename N::Length& distance)
@@ -29,14 +29,13 @@ QRAY_INLINE constexpr bool towards(const Light<N>& light, const Point<N>& q, Dir
         if (!normalise<N>(v, l))
             return false;
         const int32_t d = N::length(dot<N>(v, l)).raw;
-        distance = d > INT32_MAX >> s ? N::length_max : typename N::Length{(d << s) - N::light_clearance.raw};
+        distance = d > INT32_MAX >> s ? N::length_max : typename N::Length{d << s};
         return true;
     } else {
         const Point<N> v = light.at - q;
         if (!normalise<N>(v, l))
             return false;
-        const auto d = dot<N>(v, l);
-        distance = d - d * N::light_clearance;
+        distance = dot<N>(v, l);
         return true;
     }
 }

@@ -1,6 +1,7 @@
 // qray/math.hpp: elementary functions in integer arithmetic.
 //
-// No floating point, no library division, the same bits on every target.
+// No floating point, no library division, the same bits on every target. All functions are total: what
+// cannot be represented saturates, as each says. The only table is 98 bytes.
 #ifndef QRAY_MATH_HPP
 #define QRAY_MATH_HPP
 
@@ -8,108 +9,238 @@
 
 namespace qray {
 
-// The integer nearest to sqrt(x), saturating at 2^32 - 1.
-constexpr uint32_t isqrt(uint64_t x)
-{
-    uint64_t root = 0;
-    for (uint64_t bit = uint64_t{1} << 62; bit != 0; bit >>= 2) {
-        if (x >= root + bit) {
-            x -= root + bit;
-            root = (root >> 1) + bit;
-        } else {
-            root >>= 1;
-        }
-    }
-    return static_cast<uint32_t>(x > root && root != 0xffffffffu ? root + 1 : root);
-}
-
-// The integer nearest to sqrt(x); at most 2^16.
-constexpr uint32_t isqrt(uint32_t x)
-{
-    return isqrt(uint64_t{x});
-}
-
 // mantissa * 2^exponent, mantissa in [2^31, 2^32).
 struct Scaled {
     uint32_t mantissa;
     int32_t exponent;
 };
 
-// 1 / sqrt(x). x = 0 gives the largest value that 1/sqrt(x) of a fraction could have: {0xffffffff, 31}.
-constexpr Scaled rsqrt(uint64_t x)
-{
-    if (x == 0)
-        return {0xffffffffu, 31};
-    int shift = count_leading_zeros(x) & ~1;
-    x <<= shift;
-    // 1/sqrt(x) = sqrt(x)/x: quotient bit by bit.
-    uint64_t den = x >> 1;
-    uint64_t rem = uint64_t{isqrt(x)} << 31;
-    int32_t exponent = shift / 2 - 64;
-    if (x >> 31 == 0x80000000u)
-        return {0x80000000u, exponent + 2};
-    uint64_t q = 0;
-    for (int i = 0; i < 34; i++) {
-        q <<= 1;
-        if (rem >= den) {
-            rem -= den;
-            q |= 1;
+namespace detail {
+
+// 1/sqrt(i/64) for i = 16..64 in Q1.15, lowered by 3/(64 i^2) so that the chords between neighbours,
+// which lie above the curve, are wrong by at most 2^-12.4 either way; 4 is half a unit of Q1.12.
+struct RsqrtTable {
+    uint16_t value[49] = {};
+
+    constexpr RsqrtTable()
+    {
+        for (uint32_t i = 16; i <= 64; i++) {
+            uint64_t square = (uint64_t{1} << 60) / i;
+            uint64_t root = 0;
+            for (uint64_t bit = uint64_t{1} << 29; bit != 0; bit >>= 1) {
+                if ((root + bit) * (root + bit) <= square)
+                    root += bit;
+            }
+            root -= root * 3 / (64 * i * i);
+            value[i - 16] = static_cast<uint16_t>((root + 2048) / 4096 + 4);
         }
-        rem <<= 1;
     }
-    // sqrt(x)/x * 2^32 in [1, 2]
-    q = (q + 1) >> 1;
-    if (q >> 32) {
-        q >>= 1;
-        exponent++;
+};
+
+inline constexpr RsqrtTable rsqrt_table{};
+
+// x 4^half = high 2^32 + low in [2^62, 2^64); 0 is taken for 1.
+struct Normal {
+    uint32_t high;
+    uint32_t low;
+    int half;
+};
+
+QRAY_INLINE constexpr Normal normalise_even(uint64_t x)
+{
+    uint32_t high = static_cast<uint32_t>(x >> 32);
+    uint32_t low = static_cast<uint32_t>(x);
+    int half = 0;
+    if (high == 0) {
+        high = low != 0 ? low : 1;
+        low = 0;
+        half = 16;
     }
-    return {static_cast<uint32_t>(q), exponent};
+    int pairs = leading_zero_pairs(high);
+    int shift = 2 * pairs;
+    return {(high << shift) + (low >> 1 >> (31 - shift)), low << shift, half + pairs};
 }
 
-// 1 / x, error at most 1 ulp of the mantissa. x = 0 gives {0xffffffff, 0}.
+// a * b / 2^16, rounded down, for |a b| < 2^47 and b < 2^15.
+constexpr int32_t mul_shift_16(int32_t a, uint32_t b)
+{
+    if constexpr (has_wide_multiply)
+        return static_cast<int32_t>(wide_mul(a, static_cast<int32_t>(b << 16)) >> 32);
+    return (a >> 16) * static_cast<int32_t>(b) + static_cast<int32_t>(static_cast<uint16_t>(a) * b >> 16);
+}
+
+// 1/sqrt(v / 2^32) in Q1.12 for v in [2^30, 2^32), relative error at most 2^-11.9.
+constexpr uint32_t rsqrt_seed(uint32_t v)
+{
+    const uint16_t* entry = rsqrt_table.value + (static_cast<int32_t>(v >> 26) - 16);
+    uint32_t step = static_cast<uint32_t>(entry[0] - entry[1]);
+    return ((uint32_t{entry[0]} << 13) - step * (v << 6 >> 19)) >> 16;
+}
+
+// 1/sqrt(v / 2^64) in Q1.31 for v = high 2^32 + low in [2^62, 2^64), relative error at most 2^-31.7.
+// With the seed y and e = 1 - v y^2, it is y (1 + e/2 + 3/8 e^2 + ...); |e| < 2^-10.8.
+QRAY_SHARED constexpr uint32_t rsqrt_mantissa(uint32_t high, uint32_t low)
+{
+    uint32_t y = rsqrt_seed(high);
+    // v y^2 is close to 1 = 2^40, so its value modulo 2^32 tells e. 35 bits of v count.
+    uint32_t upper = (high >> 16) * y * y;
+    uint32_t lower = ((high << 16 >> 13) + (low >> 29)) * y;
+    lower = (lower >> 13) * y >> 6;
+    int32_t e = -static_cast<int32_t>(upper + lower);
+    int32_t e_short = e >> 14;
+    e += static_cast<int32_t>(static_cast<uint32_t>(e_short * e_short) * 3 >> 14);
+    uint32_t mantissa = (y << 19) + static_cast<uint32_t>((mul_shift_16(e, y) + 32) >> 6);
+    return mantissa >> 31 != 0 ? mantissa : 0xffffffffu;
+}
+
+}  // namespace detail
+
+namespace detail {
+
+// isqrt, counted up from a root that is not too large.
+QRAY_NOINLINE constexpr uint32_t isqrt_large(uint64_t x, uint32_t root)
+{
+    uint64_t bound = wide_mul(root, root) + root;
+    while (x > bound && root != 0xffffffffu) {
+        root++;
+        bound += uint64_t{root} << 1;
+    }
+    return root;
+}
+
+}  // namespace detail
+
+// The integer nearest to sqrt(x), saturating at 2^32 - 1.
+QRAY_SHARED constexpr uint32_t isqrt(uint64_t x)
+{
+    detail::Normal v = detail::normalise_even(x);
+    uint32_t root = mul_high(v.high, detail::rsqrt_mantissa(v.high, v.low));
+    // root is sqrt(x) 2^(half - 1), error within (-2.4, 0.9). What remains is settled by its square.
+    if (v.half >= 3) {
+        root = ((root >> (v.half - 2)) + 1) >> 1;
+        int32_t rest = static_cast<int32_t>(static_cast<uint32_t>(x) - root * root);
+        if (rest > static_cast<int32_t>(root))
+            root++;
+        else if (rest <= -static_cast<int32_t>(root))
+            root--;
+        return root;
+    }
+    return detail::isqrt_large(x, (root - 1) << 1 >> v.half);
+}
+
+// The integer nearest to sqrt(x); at most 2^16.
+constexpr uint32_t isqrt(uint32_t x)
+{
+    if (x == 0)
+        return 0;
+    int pairs = leading_zero_pairs(x);
+    uint32_t v = x << (2 * pairs);
+    uint32_t y = detail::rsqrt_seed(v);
+    uint32_t root = (v >> 16) * y >> 12;
+    // One Newton step: root + (v - root^2) y / 2, in Q.24.
+    int32_t rest = static_cast<int32_t>(v - root * root) >> 4;
+    root = (root << 8) + static_cast<uint32_t>(rest * static_cast<int32_t>(y) >> 17);
+    root = ((root >> (7 + pairs)) + 1) >> 1;
+    rest = static_cast<int32_t>(x - root * root);
+    if (rest > static_cast<int32_t>(root))
+        root++;
+    else if (rest <= -static_cast<int32_t>(root))
+        root--;
+    return root;
+}
+
+namespace detail {
+
+// The mantissa above the exponent: two registers, where a struct would be returned in memory.
+QRAY_SHARED constexpr uint64_t rsqrt_packed(uint64_t x)
+{
+    Normal v = normalise_even(x);
+    return uint64_t{rsqrt_mantissa(v.high, v.low)} << 32 | static_cast<uint32_t>(v.half - 63);
+}
+
+}  // namespace detail
+
+// 1 / sqrt(x), relative error at most 2^-31.7 (1.1 ulp of the mantissa). x = 0 is taken for 1.
+constexpr Scaled rsqrt(uint64_t x)
+{
+    uint64_t packed = detail::rsqrt_packed(x);
+    return {static_cast<uint32_t>(packed >> 32), static_cast<int32_t>(static_cast<uint32_t>(packed))};
+}
+
+namespace detail {
+
+// 2^63 / d for d in [2^31, 2^32), saturating at 2^32 - 1; error at most 1 ulp. The seed v is the square
+// of an inverse square root in Q1.14; with e = 1 - d v it is v (1 + e + e^2 + ...), |e| < 2^-11.
+QRAY_SHARED constexpr uint32_t reciprocal_mantissa(uint32_t d)
+{
+    uint32_t y = rsqrt_seed(d);
+    uint32_t v = y * y >> 10;
+    int32_t e = -static_cast<int32_t>(((d >> 16) * v << 5) + ((d & 0xffff) * v >> 11));
+    int32_t e_short = e >> 9;
+    e += e_short * e_short >> 17;
+    uint32_t mantissa = (v << 17) + static_cast<uint32_t>((mul_shift_16(e, v) + 2) >> 2);
+    return mantissa >> 31 != 0 ? mantissa : 0xffffffffu;
+}
+
+}  // namespace detail
+
+// 1 / x, error at most 1 ulp of the mantissa. x = 0 gives {2^32 - 1, 0}.
 constexpr Scaled reciprocal(uint32_t x)
 {
     if (x == 0)
         return {0xffffffffu, 0};
     int shift = count_leading_zeros(x);
-    uint32_t d = x << shift;
-    if (d == 0x80000000u)
-        return {0x80000000u, shift - 62};
-    uint64_t rem = uint64_t{1} << 32;
-    uint32_t q = 0;
-    for (int i = 0; i < 32; i++) {
-        q <<= 1;
-        if (rem >= d) {
-            rem -= d;
-            q |= 1;
-        }
-        rem <<= 1;
-    }
-    return {q, shift - 63};
+    return {detail::reciprocal_mantissa(x << shift), shift - 63};
 }
+
+namespace detail {
+
+// n 2^shift / den to the nearest integer, halves up, saturating at 2^31 - 1.
+QRAY_SHARED constexpr uint32_t divide_magnitude(uint64_t n, uint32_t den, int shift)
+{
+    constexpr uint32_t limit = 0x7fffffff;
+    uint32_t high = static_cast<uint32_t>(n >> 32);
+    uint32_t low = static_cast<uint32_t>(n);
+    if (den == 0)
+        return limit;
+    int scale = count_leading_zeros(den);
+    den <<= scale;
+    scale += shift;
+    if (scale >= 32) {
+        if (high != 0)
+            return limit;
+        high = low;
+        low = 0;
+        scale -= 32;
+    }
+    if (high >> (31 - scale) != 0)
+        return limit;
+    high = (high << scale) + (low >> 1 >> (31 - scale));
+    low <<= scale;
+    uint32_t half = den >> 1;
+    low += half;
+    high += low < half;
+    if (high >= half)
+        return limit;
+    // The quotient is less than 2^31; the estimate is too small, by less than 4.
+    uint32_t quotient = mul_high((high << 1) + (low >> 31), reciprocal_mantissa(den) - 1);
+    uint64_t rest = (uint64_t{high} << 32 | low) - wide_mul(quotient, den);
+    while (rest >= den) {
+        rest -= den;
+        quotient++;
+    }
+    return quotient;
+}
+
+}  // namespace detail
 
 // num * 2^shift / den to the nearest integer, halves away from zero, shift in [0, 32].
 // Saturates to +-(2^31 - 1), also for den = 0 (with the sign of num).
 constexpr int32_t divide(int64_t num, uint32_t den, int shift)
 {
-    constexpr int32_t limit = 0x7fffffff;
-    uint64_t n = num < 0 ? 0 - static_cast<uint64_t>(num) : static_cast<uint64_t>(num);
-    if (n >> (63 - shift) != 0)
-        return num < 0 ? -limit : limit;
-    n = (n << shift) + (den >> 1);
-    if ((n >> 31) >= den)
-        return num < 0 ? -limit : limit;
-    uint64_t d = uint64_t{den} << 30;
-    uint32_t q = 0;
-    for (int i = 0; i < 31; i++) {
-        q <<= 1;
-        if (n >= d) {
-            n -= d;
-            q |= 1;
-        }
-        n <<= 1;
-    }
-    return num < 0 ? -static_cast<int32_t>(q) : static_cast<int32_t>(q);
+    if (num < 0)
+        return -static_cast<int32_t>(detail::divide_magnitude(0 - static_cast<uint64_t>(num), den, shift));
+    return static_cast<int32_t>(detail::divide_magnitude(static_cast<uint64_t>(num), den, shift));
 }
 
 // whole + fraction / 2^32, whole <= 10^6.
@@ -128,33 +259,26 @@ constexpr uint32_t pow_whole(uint32_t x, uint32_t whole)
         return 0;
     // The base is 1 - m / 2^(32 + k), the result 1 - r / 2^32: near 1 the complement keeps its bits.
     uint32_t m = one - x;
-    int k = count_leading_zeros(m);
-    m <<= k;
-    k -= 2;
-    if (k < 0) {
-        k = 0;
-        m = (one - x) << 2;
-    }
+    int k = count_leading_zeros(m) - 2;
+    m = m << 2 << k;
     uint32_t r = 0;
     for (;;) {
         if (whole & 1)
-            r += (m - mul_high(r, m)) >> k;
+            r = r == 0 ? m >> k : r + (mul_high(0 - r, m) >> k);
         whole >>= 1;
         if (whole == 0)
             break;
         if (k > 0) {
-            m -= mul_high(m, m) >> (k + 1);
+            m -= square_high(m) >> (k + 1);
             k--;
         } else {
-            m = 0 - m;
-            m = mul_high(m, m);
+            m = square_high(0 - m);
             if (m == 0)
                 return 0;
             m = 0 - m;
         }
     }
-    uint32_t result = one - (r >> 2) - ((r >> 1) & 1);
-    return result;
+    return one - (r >> 2) - ((r >> 1) & 1);
 }
 
 // x^(fraction / 2^32) for x in [0, 1] as Q2.30, result Q2.30. Absolute error <= 2^-28.

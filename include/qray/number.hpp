@@ -131,17 +131,15 @@ struct FixedSystem {
         x = shift_left(x, up);
         y = shift_left(y, up);
         z = shift_left(z, up);
+        // 1/length, in (2^-32, 2^-30], as scale 2^-61 or, where it is less than 2^-31, as scale 2^-62
         const Scaled r = rsqrt(wide_norm2(x, y, z));
-        // 1/len in (2^-31.8, 2^-30]: bring it to 31 fractional bits below 2^-30.
-        const int down = -61 - r.exponent;
-        uint32_t scale = r.mantissa;
-        if (down > 0)
-            scale = (scale >> down) + (scale >> (down - 1) & 1);
-        if (scale > 0x7fffffffu)
+        const bool low = r.exponent < -62;
+        uint32_t scale = (r.mantissa >> 1) + (r.mantissa & 1);
+        if (r.exponent > -62 || scale > 0x7fffffffu)
             scale = 0x7fffffffu;
-        ux = narrow_unit(x, static_cast<int32_t>(scale));
-        uy = narrow_unit(y, static_cast<int32_t>(scale));
-        uz = narrow_unit(z, static_cast<int32_t>(scale));
+        ux = narrow_unit(x, static_cast<int32_t>(scale), low);
+        uy = narrow_unit(y, static_cast<int32_t>(scale), low);
+        uz = narrow_unit(z, static_cast<int32_t>(scale), low);
         return true;
     }
     template <int F>
@@ -260,10 +258,13 @@ struct FixedSystem {
     }
 
 private:
-    QRAY_INLINE static constexpr Unit narrow_unit(int32_t c, int32_t scale)
+    // c scale 2^-31, or 2^-32, to the nearest.
+    QRAY_INLINE static constexpr Unit narrow_unit(int32_t c, int32_t scale, bool low)
     {
         constexpr int down = 61 - UnitFrac;
-        return {static_cast<int32_t>((wide_mul(c, scale) + (int64_t{1} << (down - 1))) >> down)};
+        const int64_t p = wide_mul(c, scale) + (low ? int64_t{1} << down : int64_t{1} << (down - 1));
+        const int32_t v = static_cast<int32_t>(p >> down);
+        return {low ? v >> 1 : v};
     }
 };
 
@@ -345,7 +346,7 @@ struct FloatSystem {
         return c < limit && c > -limit;
     }
     QRAY_INLINE static constexpr F leave(F g) { return g * (F(256) * epsilon); }
-    static constexpr F light_clearance = F(64) * epsilon;
+    static constexpr F light_clearance = F(2048) * epsilon;
 
     QRAY_INLINE static constexpr F power_whole(F x, Shine e)
     {
@@ -359,10 +360,10 @@ struct FloatSystem {
     }
     static constexpr F power(F x, Shine e)
     {
-        return e.fraction > 0 && x > 0 ? power_whole(x, e) * power_fraction(x, e.fraction) : power_whole(x, e);
+        return e.fraction > 0 ? power_whole(x, e) * power_fraction(x, e.fraction) : power_whole(x, e);
     }
 
-    // x^f for x in (0, 1], f in (0, 1): square roots of x, one for each bit of f that matters.
+    // x^f for x in [0, 1], f in (0, 1): square roots of x, one for each bit of f that matters.
     static constexpr F power_fraction(F x, F f)
     {
         F r = 1;

@@ -30,7 +30,7 @@ template <class N>
 constexpr int crossings(const Patch<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length limit)
 {
     typename N::Length t{};
-    return intersect(s, vertices, ray, limit, t) && t < limit;
+    return intersect(s, vertices, ray, limit, t) && before_light<N>(s.normal, ray, t, limit);
 }
 
 // The shading normal where the ray meets the triangle: unit, not yet turned; g where the blend vanishes.

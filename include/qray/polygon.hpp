@@ -143,7 +143,7 @@ template <class N>
 constexpr int crossings(const Polygon<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length limit)
 {
     typename N::Length t{};
-    return intersect(s, vertices, ray, limit, t) && t < limit;
+    return intersect(s, vertices, ray, limit, t) && before_light<N>(s.normal, ray, t, limit);
 }
 
 template <class N>

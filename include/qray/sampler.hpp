@@ -5,22 +5,24 @@
 
 namespace qray {
 
-// A sample's colour, clamped to [0, 1]: Q8.24 in fixed point.
+// A sample's colour, clamped to [0, 1]: Q4.28 in fixed point.
 template <class N>
 struct Sample {
     using Level = uint32_t;
-    static constexpr Level one = uint32_t{1} << 24;
+    static constexpr Level one = uint32_t{1} << 28;
     Level r, g, b;
 
     static constexpr Level clamped(typename N::Colour c, int exposure)
     {
-        constexpr int down = N::Colour::frac - 24;
         const int32_t limit = (int32_t{1} << N::Colour::frac) >> exposure;
-        const uint32_t v = static_cast<uint32_t>((c.raw < limit ? c.raw : limit) << exposure);
-        return down >= 0 ? v >> (down >= 0 ? down : 0) : v << (down >= 0 ? 0 : -down);
+        return static_cast<uint32_t>((c.raw < limit ? c.raw : limit) << exposure) << (28 - N::Colour::frac);
     }
-    // The nearest byte, halves up.
-    static constexpr uint8_t byte(Level v) { return static_cast<uint8_t>((v * 255 + (one >> 1)) >> 24); }
+    // The nearest byte, halves up. Colours are often round decimals, whose 255-fold ends on a half: those that rounding
+    // left up to 4 ulp below it count as on it.
+    static constexpr uint8_t byte(Level v)
+    {
+        return static_cast<uint8_t>((wide_mul(v + 4, uint32_t{255}) + (one >> 1)) >> 28);
+    }
 };
 template <class N>
     requires(!N::is_fixed)

@@ -15,6 +15,34 @@ struct Sphere {
     Tag tag;
 };
 
+// Half the chord that the ray cuts from the sphere, and the t of its middle; false where they do not meet.
+template <class N>
+QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves leaving, typename N::Length& middle,
+                                 typename N::Length& half)
+{
+    const Point<N> v = s.centre - ray.origin;
+    middle = N::length(dot<N>(v, ray.direction));
+    if (middle < -s.radius)
+        return false;
+    const Point<N> p = v - along<N>(middle, ray.direction);
+    const auto p2 = norm2<N>(p);
+    const auto r2 = s.radius * s.radius;
+    if (p2 > r2) {
+        half = N::length_zero;
+        return leaving == Leaves::inward; // however short, that chord has another end
+    }
+    half = N::sqrt(r2 - p2);
+    return true;
+}
+
+// The far end of a chord that begins at the ray's origin.
+template <class N>
+QRAY_INLINE constexpr typename N::Length chord_end(typename N::Length middle, typename N::Length half)
+{
+    const auto end = middle + half;
+    return end > N::length_zero ? end : N::ulp;
+}
+
 // The nearest t in (0, limit], or false. t is within 2 ulp of the hit of the ray as given, more where it grazes.
 template <class N>
 QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Ray<N>& ray, typename N::Length limit,
@@ -23,57 +51,43 @@ QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Ray<N>& ray, type
     const Leaves leaving = leaves(ray, s.tag);
     if (leaving == Leaves::outward) // convex: never met again
         return false;
-    const Point<N> v = s.centre - ray.origin;
-    const auto b = N::length(dot<N>(v, ray.direction));
-    if (leaving == Leaves::inward) { // the chord
-        t = b + b;
-        if (!(t > N::length_zero))
-            t = N::ulp;
+    typename N::Length middle{}, half{};
+    if (!chord(s, ray, leaving, middle, half))
+        return false;
+    if (leaving == Leaves::inward) {
+        t = chord_end<N>(middle, half);
         return t <= limit;
     }
-    if (b < -s.radius)
-        return false;
-    const Point<N> p = v - along<N>(b, ray.direction);
-    const auto p2 = norm2<N>(p);
-    const auto r2 = s.radius * s.radius;
-    if (p2 > r2)
-        return false;
-    const auto half = N::sqrt(r2 - p2);
-    t = b - half;
+    t = middle - half;
     if (!(t > N::length_zero))
-        t = b + half;
+        t = middle + half;
     return t > N::length_zero && t <= limit;
 }
 
-// How often the ray crosses the sphere strictly between its origin and limit: 0, 1 or 2.
+// How often the ray crosses the sphere strictly between its origin and a light at `distance`: 0, 1 or 2.
 template <class N>
-QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Ray<N>& ray, typename N::Length limit)
+QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Ray<N>& ray, typename N::Length distance)
 {
     const Leaves leaving = leaves(ray, s.tag);
     if (leaving == Leaves::outward)
         return 0;
-    const Point<N> v = s.centre - ray.origin;
-    const auto b = N::length(dot<N>(v, ray.direction));
+    const auto limit = distance - N::light_clearance;
+    typename N::Length middle{}, half{};
+    if (!chord(s, ray, leaving, middle, half))
+        return 0;
     if (leaving == Leaves::inward)
-        return b + b < limit;
-    if (b < -s.radius)
+        return chord_end<N>(middle, half) < limit;
+    const auto near = middle - half;
+    if (near >= limit)
         return 0;
-    const Point<N> p = v - along<N>(b, ray.direction);
-    const auto p2 = norm2<N>(p);
-    const auto r2 = s.radius * s.radius;
-    if (p2 > r2)
-        return 0;
-    const auto half = N::sqrt(r2 - p2);
-    const auto near = b - half;
-    const auto far = b + half;
-    return (near > N::length_zero && near < limit) + (far > N::length_zero && far < limit);
+    return (near > N::length_zero) + (middle + half > N::length_zero && middle + half < limit);
 }
 
 // crossings() > 0.
 template <class N>
-QRAY_INLINE constexpr bool blocks(const Sphere<N>& s, const Ray<N>& ray, typename N::Length limit)
+QRAY_INLINE constexpr bool blocks(const Sphere<N>& s, const Ray<N>& ray, typename N::Length distance)
 {
-    return crossings(s, ray, limit) != 0;
+    return crossings(s, ray, distance) != 0;
 }
 
 // The outward unit normal at a point of the sphere.
