@@ -38,7 +38,7 @@ FW_COMMON := start memory $(BOARD_CORE) host_fault host_text
 FW_OBJS   := $(addprefix $(FW_OBJ)/,$(addsuffix .o,$(FW_COMMON) \
     $(if $(filter uart,$(OUTPUT)),output_uart $(BOARD_UART),host_semihosting $(BOARD_COUNTER))))
 FW_COUNT  := $(if $(filter-out uart,$(OUTPUT)),$(if $(filter yes,$(RAYS)),$(FW_STEM)-rays.elf))
-FW_REPORT  = python3 $(FW_SRC)/common/run.py --tools $(BOARD_TOOLS) --tick $(BOARD_TICK) $(FW_ELF)
+FW_REPORT  = python3 $(FW_SRC)/common/run.py --tools $(BOARD_TOOLS) --tick $(BOARD_TICK) $(if $(UNBOUNDED),--unbounded) $(FW_ELF)
 
 # What the outputs were made with: a change of options remakes them.
 FW_CONFIG := $(SCENE) $(FW_OPTIONS) $(FW_DEFINES) $(FW_FLAGS) $(FW_MAIN)

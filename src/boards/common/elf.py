@@ -32,12 +32,15 @@ class Elf:
         for name, kind, flags, address, at, length, link, *_ in raw:
             self.sections.append((self.text(raw[names][4] + name), kind, flags, address, at, length, link))
         self.symbols = []  # (name, address, size, type, section index); Thumb bit cleared
+        self.weak = set()  # names that may stay undefined
         for _, kind, _, _, at, length, link in self.sections:
             if kind == 2:
                 for i in range(at + 16, at + length, 16):
                     name, value, size, info, _, index = struct.unpack_from("<IIIBBH", self.bytes, i)
                     value &= ~1 if self.machine == "arm" and info & 15 == 2 else ~0
                     text = self.text(self.sections[link][4] + name)
+                    if index == 0 and info >> 4 == 2:
+                        self.weak.add(text)
                     self.symbols.append((text, value, size, info & 15, index))
         self.functions = {}  # address -> (name, size); of several names for one address the first
         for name, value, size, kind, index in self.symbols:
