@@ -1,0 +1,203 @@
+"""Every board, end to end, with pictures and programs whose results are known without running them; and that
+check_elf.py finds what it is for. From the top of the repository: python3 tests/firmware/test_boards.py"""
+
+import os
+import re
+import subprocess
+import sys
+import unittest
+
+sys.path.insert(0, "src/boards/common")
+sys.path.insert(0, "tests/firmware")
+import check_elf  # noqa: E402
+
+BOARDS = ["microbit", "mps2_an385", "mps2_an386", "mps2_an500", "rv32_virt"]
+
+
+def tools(board):
+    return "riscv64-unknown-elf-" if board.startswith("rv32") else "arm-none-eabi-"
+
+
+def make(*arguments):
+    """(status, standard output and error) of make."""
+    environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+    result = subprocess.run(os.environ.get("MAKE", "make").split() + list(arguments), env=environment,
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return result.returncode, result.stdout
+
+
+def values(text):
+    return {k: float(v) for k, v in re.findall(r"^([\w/]+): ([\d.]+)$", text, re.M)}
+
+
+def card(width, height):
+    """The test card by its definition in src/firmware/test_card.hpp."""
+    out = bytearray(f"P6\n{width} {height}\n255\n".encode())
+    for y in range(height):
+        for x in range(width):
+            a = x * 2654435769 % 2**32
+            b = (y * 2246822519 + 1) % 2**32
+            out += bytes((255 * x // max(width - 1, 1), a * b >> 32 & 255,
+                          ((x % 1024)**2 + (y % 1024)**2) // 8 % 256))
+    return bytes(out)
+
+
+class Boards(unittest.TestCase):
+    def test_card(self):
+        for board in BOARDS:
+            for size, name in (("64x48", "card"), ("1x1", "card_1"), ("129x7", "card_129")):
+                for output in ("semihosting", "uart"):
+                    with self.subTest(board=board, size=size, output=output):
+                        status, text = make("run", f"BOARD={board}", f"SIZE={size}", f"NAME={name}",
+                                            f"OUTPUT={output}")
+                        self.assertEqual(status, 0, text)
+                        with open(f"build/{board}/{name}-float.ppm", "rb") as file:
+                            self.assertEqual(file.read(), card(*map(int, size.split("x"))))
+                        self.assertEqual(values(text)["ram"], -(-3 * int(size.split("x")[0]) // 4) * 4)
+                for elf in (f"build/{board}/{name}-float.elf", f"build/{board}/{name}-float-uart.elf"):
+                    self.assertEqual(check_elf.check(elf, tools(board), None), [])
+
+    # Three instructions a loop; what is added is the call of the output, and two ticks at most.
+    def test_instructions(self):
+        for board in BOARDS:
+            with self.subTest(board=board):
+                status, text = make("run", f"BOARD={board}", "NAME=count", "FW_MAIN=tests/firmware/count.cpp",
+                                    "FW_EXTRA=-DLOOPS=1000000")
+                self.assertEqual(status, 0, text)
+                self.assertLess(abs(values(text)["instructions"] - 3_000_000), 200)
+
+    # A row longer than the 24 bits of SysTick.
+    def test_instructions_beyond_a_wrap(self):
+        status, text = make("run", "BOARD=microbit", "NAME=count", "FW_MAIN=tests/firmware/count.cpp",
+                            "FW_EXTRA=-DLOOPS=400000000")
+        self.assertEqual(status, 0, text)
+        self.assertLess(abs(values(text)["instructions"] - 1_200_000_000), 200)
+
+    def test_stack(self):
+        for board in BOARDS:
+            with self.subTest(board=board):
+                status, text = make("run", f"BOARD={board}", "NAME=deep", "FW_MAIN=tests/firmware/count.cpp",
+                                    "FW_EXTRA=-DLOOPS=1 -DDEEP")
+                self.assertEqual(status, 0, text)
+                found = values(text)
+                self.assertGreaterEqual(found["stack"], 400)
+                self.assertEqual(found["stack"], found["stack_bound"])
+
+    def test_faults(self):
+        for board in BOARDS:
+            for what, message in (("", "fault: "), ("-DJUMP", "fault: .* at 0x30000000"),
+                                  ("-DSTATUS", "stopped|exit status 7")):
+                for output in ("semihosting", "uart"):
+                    with self.subTest(board=board, what=what, output=output):
+                        name = "fault" + what[2:].lower()
+                        status, text = make("run", f"BOARD={board}", f"NAME={name}", f"OUTPUT={output}",
+                                            "FW_MAIN=tests/firmware/fault.cpp", f"FW_EXTRA={what}")
+                        if "JUMP" in what:  # refused for its call through a pointer, so run it regardless
+                            self.assertIn("call through a pointer", text)
+                            status, text = make("run", f"BOARD={board}", f"NAME={name}", f"OUTPUT={output}",
+                                                "FW_MAIN=tests/firmware/fault.cpp", f"FW_EXTRA={what}",
+                                                "UNBOUNDED=yes")
+                        self.assertNotEqual(status, 0)
+                        self.assertRegex(text, message)
+                        self.assertFalse(os.path.exists(f"build/{board}/{name}-float.ppm"))
+
+
+MAIN = '#include "boards/common/board.hpp"\n%s\nint main() { %s }\n'
+
+
+class CheckElf(unittest.TestCase):
+    def faults(self, board, name, declarations, body, number="q32"):
+        os.makedirs("build/check_elf", exist_ok=True)
+        source = f"build/check_elf/{name}.cpp"
+        with open(source, "w") as file:
+            file.write(MAIN % (declarations, body))
+        elf = f"build/{board}/check_{name}-{number}.elf"
+        if os.path.exists(elf):
+            os.remove(elf)
+        status, text = make("size", f"BOARD={board}", f"NAME=check_{name}", f"NUMBER={number}",
+                            f"FW_MAIN={source}", "FW_EXTRA=-Wno-error")
+        self.assertTrue(os.path.exists(elf), text)
+        return elf, check_elf.check(elf, tools(board), None)
+
+    def expect(self, text, name, declarations, body, **options):
+        for board in ("microbit", "mps2_an386", "rv32_virt"):
+            with self.subTest(board=board, name=name):
+                faults = self.faults(board, name, declarations, body, **options)[1]
+                self.assertTrue(any(re.search(text, fault) for fault in faults), faults)
+
+    def test_good(self):
+        for board in BOARDS:
+            with self.subTest(board=board):
+                faults = self.faults(board, "good", "", "return board::reg(0x4000'0000) != 0;")[1]
+                self.assertEqual(faults, [])
+
+    def test_recursion(self):
+        self.expect("recursion: .*f", "recursion", "[[gnu::noinline]] int f(int n)"
+                    "{ volatile int a = n; return n < 2 ? a : f(n / 2) + f(n / 3) * a; }",
+                    "return f(int(board::reg(0x4000'0000)));")
+
+    def test_mutual_recursion(self):
+        self.expect("recursion: .*(f.*g|g.*f)", "mutual", "int g(int);"
+                    "[[gnu::noinline, gnu::noclone]] int f(int n) { return n < 2 ? n : 3 * g(n / 2); }"
+                    "[[gnu::noinline, gnu::noclone]] int g(int n) { return n < 3 ? n : 5 + f(n / 3); }",
+                    "return f(int(board::reg(0x4000'0000)));")
+
+    def test_recursion_by_jumps(self):
+        self.expect("recursion by jumps", "jumps", "int g(int);"
+                    "[[gnu::noinline, gnu::noclone]] int f(int n) { return n < 2 ? n : g(n / 2); }"
+                    "[[gnu::noinline, gnu::noclone]] int g(int n) { return n < 3 ? n : f(n / 3); }",
+                    "return f(int(board::reg(0x4000'0000)));")
+
+    def test_pointer(self):
+        self.expect("call through a pointer", "pointer", "",
+                    "auto f = reinterpret_cast<int (*)()>(board::reg(0x4000'0000)); return f() + 1;")
+
+    def test_global(self):
+        self.expect("counter is a mutable global of 4 bytes", "global", "volatile int counter;",
+                    "counter = 3; return counter;")
+
+    def test_constructor(self):
+        self.expect("section .init_array of 4 bytes", "constructor",
+                    "struct S { S() { board::reg(0x4000'0000) = 1; } } s;", "return 0;")
+
+    def test_undefined(self):
+        self.expect("nowhere is undefined", "undefined", 'extern "C" [[gnu::weak]] int nowhere();',
+                    "return nowhere != nullptr;")
+
+    def test_allocation(self):
+        self.expect("malloc is linked", "allocation",
+                    'extern "C" [[gnu::noinline]] void* malloc(decltype(sizeof 0))'
+                    '{ asm volatile(""); return nullptr; }',
+                    "return malloc(board::reg(0x4000'0000)) != nullptr;")
+
+    def test_soft_float(self):
+        self.expect("library is not for q32", "double", "",
+                    "volatile double x = 3; return int(x * x / 7 + x);")
+
+    def test_frame_of_no_fixed_size(self):
+        self.expect("no fixed size|unknown amount|from a register", "alloca", "",
+                    "auto* a = static_cast<volatile char*>(__builtin_alloca(board::reg(0x4000'0000)));"
+                    "a[0] = 1; return a[board::reg(0x4000'0004)];")
+
+    def test_budgets(self):
+        elf, _ = self.faults("microbit", "budget", "[[gnu::noinline]] void f()"
+                             "{ volatile char a[200]; a[0] = 1; }", "f(); return 0;")
+        size = values(make("size", "BOARD=microbit", "NAME=check_budget", "NUMBER=q32",
+                           "FW_MAIN=build/check_elf/budget.cpp", "FW_EXTRA=-Wno-error")[1])
+        exact = [int(size[k]) for k in ("flash", "ram", "stack_bound")]
+        self.assertGreaterEqual(exact[2], 200)
+        for change, text in ((None, None), (0, "flash"), (1, None), (2, "stack")):
+            limits = [v - (i == change) for i, v in enumerate(exact)]
+            limits[1] = max(limits[1], 0)
+            with open("build/check_elf/budgets.txt", "w") as file:
+                file.write("# comment\nmicrobit check_budget q32 %d %d %d\n" % tuple(limits))
+            faults = check_elf.check(elf, tools("microbit"), "build/check_elf/budgets.txt")
+            if text is None:
+                self.assertEqual(faults, [])
+            else:
+                self.assertEqual(len(faults), 1)
+                self.assertRegex(faults[0], f"{text} of .* is above the budget of")
+
+
+if __name__ == "__main__":
+    unittest.main()
