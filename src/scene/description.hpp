@@ -79,11 +79,14 @@ struct Description {
     uint32_t object_count = 0, vertex_count = 0, fill_count = 0, light_count = 0;
     uint32_t dropped = 0; // objects without extent, left out
     char comment[256] = {}; // the first comment that says something, without its '#'; else empty
-    Object objects[Limits::objects];
-    Vec3d vertices[Limits::vertices];
-    Vec3d normals[Limits::vertices]; // patches only, at the corner's index, as given
-    Fill fills[Limits::materials];
-    Light lights[Limits::lights];
+    // Left as they are until the parser fills them: nobody writes a hundred megabytes to start.
+    union { Object objects[Limits::objects]; };
+    union { Vec3d vertices[Limits::vertices]; };
+    union { Vec3d normals[Limits::vertices]; }; // patches only, at the corner's index, as given
+    union { Fill fills[Limits::materials]; };
+    union { Light lights[Limits::lights]; };
+
+    Description() {}
 };
 
 // Room for a Description in static storage: all zero until parse() fills it. (A Description of its own there
