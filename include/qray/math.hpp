@@ -97,9 +97,26 @@ QRAY_SHARED constexpr uint32_t rsqrt_mantissa(uint32_t high, uint32_t low)
 
 namespace detail {
 
-// isqrt, counted up from a root that is not too large.
-QRAY_NOINLINE constexpr uint32_t isqrt_large(uint64_t x, uint32_t root)
+// isqrt for x < 2^58.
+QRAY_SHARED constexpr uint32_t isqrt_small(uint64_t x)
 {
+    Normal v = normalise_even(x);
+    uint32_t root = mul_high(v.high, rsqrt_mantissa(v.high, v.low));
+    // This is sqrt(x) 2^(half - 1), half >= 3, error within (-2.4, 0.9): at most one off when rounded,
+    // and |x - root^2| < 2^31 then tells which way.
+    root = ((root >> (v.half - 2)) + 1) >> 1;
+    int32_t rest = static_cast<int32_t>(static_cast<uint32_t>(x) - root * root);
+    if (rest > static_cast<int32_t>(root))
+        root++;
+    else if (rest <= -static_cast<int32_t>(root))
+        root--;
+    return root;
+}
+
+// isqrt for x >= 2^58, counted up from a bound at most 9 below.
+QRAY_NOINLINE constexpr uint32_t isqrt_large(uint64_t x)
+{
+    uint32_t root = (isqrt_small(x >> 6) << 3) - 4;
     uint64_t bound = wide_mul(root, root) + root;
     while (x > bound && root != 0xffffffffu) {
         root++;
@@ -110,22 +127,10 @@ QRAY_NOINLINE constexpr uint32_t isqrt_large(uint64_t x, uint32_t root)
 
 }  // namespace detail
 
-// The integer nearest to sqrt(x), saturating at 2^32 - 1.
-QRAY_SHARED constexpr uint32_t isqrt(uint64_t x)
+// The integer nearest to sqrt(x), saturating at 2^32 - 1. Faster below 2^58.
+constexpr uint32_t isqrt(uint64_t x)
 {
-    detail::Normal v = detail::normalise_even(x);
-    uint32_t root = mul_high(v.high, detail::rsqrt_mantissa(v.high, v.low));
-    // root is sqrt(x) 2^(half - 1), error within (-2.4, 0.9). What remains is settled by its square.
-    if (v.half >= 3) {
-        root = ((root >> (v.half - 2)) + 1) >> 1;
-        int32_t rest = static_cast<int32_t>(static_cast<uint32_t>(x) - root * root);
-        if (rest > static_cast<int32_t>(root))
-            root++;
-        else if (rest <= -static_cast<int32_t>(root))
-            root--;
-        return root;
-    }
-    return detail::isqrt_large(x, (root - 1) << 1 >> v.half);
+    return x >> 58 != 0 ? detail::isqrt_large(x) : detail::isqrt_small(x);
 }
 
 // The integer nearest to sqrt(x); at most 2^16.
@@ -250,7 +255,7 @@ struct Exponent {
 };
 
 // x^whole for x in [0, 1] as Q2.30, result Q2.30. Absolute error <= 2^-28; 0^0 = 1.
-constexpr uint32_t pow_whole(uint32_t x, uint32_t whole)
+QRAY_SHARED constexpr uint32_t pow_whole(uint32_t x, uint32_t whole)
 {
     constexpr uint32_t one = uint32_t{1} << 30;
     if (x >= one || whole == 0)
@@ -263,13 +268,15 @@ constexpr uint32_t pow_whole(uint32_t x, uint32_t whole)
     m = m << 2 << k;
     uint32_t r = 0;
     for (;;) {
-        if (whole & 1)
-            r = r == 0 ? m >> k : r + (mul_high(0 - r, m) >> k);
+        if (whole & 1) {
+            uint32_t change = r == 0 ? m : mul_high(0 - r, m);
+            r += k == 0 ? change : ((change >> (k - 1)) + 1) >> 1;
+        }
         whole >>= 1;
         if (whole == 0)
             break;
         if (k > 0) {
-            m -= square_high(m) >> (k + 1);
+            m -= ((square_high(m) >> k) + 1) >> 1;
             k--;
         } else {
             m = square_high(0 - m);
@@ -281,22 +288,48 @@ constexpr uint32_t pow_whole(uint32_t x, uint32_t whole)
     return one - (r >> 2) - ((r >> 1) & 1);
 }
 
-// x^(fraction / 2^32) for x in [0, 1] as Q2.30, result Q2.30. Absolute error <= 2^-28.
-constexpr uint32_t pow_fraction(uint32_t x, uint32_t fraction)
+namespace detail {
+
+// c[0] - x (c[1] - x (c[2] - ...)), all in Q0.32; every c is greater than the next.
+constexpr uint32_t alternating_polynomial(const uint32_t* c, int degree, uint32_t x)
+{
+    uint32_t sum = c[degree];
+    for (int i = degree - 1; i >= 0; i--)
+        sum = c[i] - mul_high(sum, x);
+    return sum;
+}
+
+// Chebyshev fits on [0, 1]: (log2(1 + x) - x) / (x (1 - x)), error 2^-28.0,
+// and (1 - 2^-x - x/2) / (x (1 - x)), error 2^-30.9. The factor x (1 - x) <= 1/4 then takes two bits off.
+inline constexpr uint32_t log2_coefficients[10] = {
+    0x71547643, 0x4755b89c, 0x33c4c5d6, 0x287930ee, 0x20b8ff0e,
+    0x19d0880b, 0x11fe6bf2, 0x09ac663f, 0x035d2e87, 0x008c38fd,
+};
+inline constexpr uint32_t exp2_coefficients[6] = {
+    0x317217f6, 0x0c0d6374, 0x022819a3, 0x004e17e0, 0x0008f372, 0x0000b5b4,
+};
+
+}  // namespace detail
+
+// x^(fraction / 2^32) for x in [0, 1] as Q2.30, result Q2.30. Absolute error <= 2^-29.
+QRAY_SHARED constexpr uint32_t pow_fraction(uint32_t x, uint32_t fraction)
 {
     constexpr uint32_t one = uint32_t{1} << 30;
     if (x >= one || fraction == 0)
         return one;
     if (x == 0)
         return 0;
-    uint32_t root = x << 2;
-    uint32_t result = 0xffffffffu;
-    for (; fraction != 0; fraction <<= 1) {
-        root = isqrt(uint64_t{root} << 32);
-        if (fraction >> 31)
-            result = mul_high(result, root);
-    }
-    return result >> 2;
+    // x = (1 + t) / 2^n
+    int n = count_leading_zeros(x) - 1;
+    uint32_t t = x << n << 2;
+    uint32_t curve = detail::alternating_polynomial(detail::log2_coefficients, 9, t);
+    uint32_t log2 = t + mul_high(mul_high(t, 0 - t), curve);
+    // -log2(x) fraction = shift + g, and 2^-g follows.
+    uint64_t exponent = wide_mul(static_cast<uint32_t>(n), fraction) - mul_high(log2, fraction);
+    uint32_t g = static_cast<uint32_t>(exponent);
+    curve = detail::alternating_polynomial(detail::exp2_coefficients, 5, g);
+    uint32_t complement = (g >> 1) + mul_high(mul_high(g, 0 - g), curve);
+    return (one - (complement >> 2) - ((complement >> 1) & 1)) >> (exponent >> 32);
 }
 
 // x^e for x in [0, 1] as Q2.30, result Q2.30. Absolute error <= 2^-28; x^0 = 1.
@@ -304,7 +337,7 @@ constexpr uint32_t pow_unit(uint32_t x, Exponent e)
 {
     uint32_t result = pow_whole(x, e.whole);
     if (e.fraction != 0)
-        result = mul_high(result << 2, pow_fraction(x, e.fraction));
+        result = static_cast<uint32_t>((wide_mul(result, pow_fraction(x, e.fraction)) + (1u << 29)) >> 30);
     return result;
 }
 
