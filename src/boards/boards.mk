@@ -1,6 +1,7 @@
 # Firmware: one board, one scene, one picture. Included by the top-level Makefile; see README.md here.
 #   make run BOARD=microbit SCENE=scenes/x.nff NUMBER=q32      build, run in QEMU, measure
 #   make size BOARD=... SCENE=... NUMBER=...                   build, and report what is known without running
+#   make profile BOARD=... SCENE=... NUMBER=...                build, trace in QEMU, and say where instructions go
 # Optional: SIZE=WxH SAMPLES=N ADAPTIVE=LEVELS[,THRESHOLD] DEPTH=N CUTOFF=W, NAME= of the outputs,
 # OUTPUT=uart (the image for a real board), RAYS=no (do not build and run the image that counts rays).
 # Without SCENE, the board draws its test card.
@@ -74,6 +75,8 @@ run: $(FW_ELF) $(FW_COUNT) $(if $(filter uart,$(OUTPUT)),$(FW_ELF:.elf=.hex)) | 
 	    $(if $(FW_COUNT),--rays $(FW_COUNT)) --picture $(FW_STEM).ppm
 size: $(FW_ELF)
 	@$(FW_REPORT)
+profile: $(FW_ELF) | firmware-qemu
+	@python3 $(FW_SRC)/common/profile.py --tools $(BOARD_TOOLS) --qemu '$(BOARD_QEMU)' $(FW_ELF)
 
 firmware-package = $(if $(filter arm%,$(BOARD_TOOLS)),gcc-arm-none-eabi,gcc-riscv64-unknown-elf)
 firmware-need = @command -v $(1) > /dev/null || \
@@ -87,9 +90,9 @@ firmware-qemu:
 FORCE:
 -include $(wildcard $(FW_OBJ)/*.d)
 else
-run size:
+run size profile:
 	@echo "usage: make $@ BOARD=board SCENE=scenes/x.nff NUMBER=q32 [SIZE=64x48] [SAMPLES=4] [ADAPTIVE=2]" >&2
 	@echo "boards: $(patsubst src/boards/%/board.mk,%,$(wildcard src/boards/*/board.mk))" >&2
 	@exit 2
 endif
-.PHONY: run size firmware-tools firmware-qemu FORCE
+.PHONY: run size profile firmware-tools firmware-qemu FORCE

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import unittest
 
+sys.dont_write_bytecode = True
 sys.path.insert(0, "src/boards/common")
 sys.path.insert(0, "tests/firmware")
 import check_elf  # noqa: E402

@@ -13,7 +13,8 @@ import subprocess
 import sys
 import time
 
-import elf as elf_file
+sys.dont_write_bytecode = True
+import elf as elf_file  # noqa: E402
 
 
 def fail(text):
