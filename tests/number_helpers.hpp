@@ -1,0 +1,160 @@
+// What the typed tests share: quantities of a number system from double and back, and its units in the last place.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+
+#include <qray/ray.hpp>
+
+namespace qray::test {
+
+using NumberSystems = ::testing::Types<q32, Float, Double>;
+
+struct SystemNames {
+    template <class N>
+    static std::string GetName(int)
+    {
+        if constexpr (std::is_same_v<N, Float>)
+            return "float";
+        else if constexpr (std::is_same_v<N, Double>)
+            return "double";
+        else
+            return N::Unit::frac == 30 ? "q32" : "q16";
+    }
+};
+
+using Vec3 = Vec<double>;
+inline Vec3 operator*(const Vec3& a, double k) { return {a.x * k, a.y * k, a.z * k}; }
+inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3 cross(const Vec3& a, const Vec3& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
+inline Vec3 unit(const Vec3& a) { return a * (1 / length(a)); }
+
+// The real number that a quantity stands for: exact for all but a Wide of more than 53 bits.
+template <int F, int B>
+double value(Fixed<F, B> a)
+{
+    return std::ldexp(a.raw, -F);
+}
+template <int F, int B>
+double value(Wide<F, B> a)
+{
+    return std::ldexp(static_cast<double>(a.raw), -F);
+}
+inline double value(double a) { return a; }
+inline double value(float a) { return static_cast<double>(a); }
+template <class T>
+Vec3 value(const Vec<T>& a)
+{
+    return {value(a.x), value(a.y), value(a.z)};
+}
+
+// The nearest quantity; it must be in range. A `direction` is normalised first, a `vector` is not.
+template <class N>
+struct make {
+    template <class T>
+    static T number(double v)
+    {
+        if constexpr (std::is_floating_point_v<T>)
+            return static_cast<T>(v);
+        else
+            return T{static_cast<int32_t>(std::llrint(std::ldexp(v, T::frac)))};
+    }
+    static typename N::Length length(double v) { return number<typename N::Length>(v); }
+    static typename N::Unit unit(double v) { return number<typename N::Unit>(v); }
+    static typename N::Colour colour(double v) { return number<typename N::Colour>(v); }
+    static typename N::Eta eta(double v) { return number<typename N::Eta>(v); }
+
+    static Point<N> point(double x, double y, double z) { return {length(x), length(y), length(z)}; }
+    static Point<N> point(const Vec3& p) { return point(p.x, p.y, p.z); }
+    static Vec<typename N::Unit> vector(double x, double y, double z) { return {unit(x), unit(y), unit(z)}; }
+    static Direction<N> direction(const Vec3& d)
+    {
+        const Vec3 u = test::unit(d);
+        return vector(u.x, u.y, u.z);
+    }
+    static Direction<N> direction(double x, double y, double z) { return direction(Vec3{x, y, z}); }
+    static Rgb<N> rgb(double r, double g, double b) { return {colour(r), colour(g), colour(b)}; }
+
+    static Ray<N> ray(const Vec3& origin, const Vec3& along)
+    {
+        return {point(origin), direction(along), {Tag::none}, false};
+    }
+    static typename N::Scale inverse(typename N::Length r)
+    {
+        if constexpr (N::is_fixed) {
+            const int shift = __builtin_clz(static_cast<uint32_t>(r.raw)) - 1;
+            const double mantissa = std::ldexp(1, 61 - shift) / r.raw;
+            return {mantissa < 2147483647.0 ? static_cast<int32_t>(std::llrint(mantissa)) : INT32_MAX, shift};
+        } else {
+            return 1 / r;
+        }
+    }
+    static typename N::Shine shine(double e)
+    {
+        const double whole = std::floor(e);
+        if constexpr (N::is_fixed)
+            return {static_cast<uint32_t>(whole), static_cast<uint32_t>(std::ldexp(e - whole, 32))};
+        else
+            return {static_cast<uint32_t>(whole), static_cast<typename N::Unit>(e - whole)};
+    }
+
+    // The step between neighbours of type T around a number of that size.
+    template <class T>
+    static double step(double size)
+    {
+        if constexpr (std::is_floating_point_v<T>)
+            return std::ldexp(1, std::ilogb(std::fmax(std::fabs(size), 0x1p-100)) - (sizeof(T) == 4 ? 23 : 52));
+        else
+            return std::ldexp(1, -T::frac);
+    }
+    static double length_ulp(double size = 1) { return step<typename N::Length>(size); }
+    static double unit_ulp(double size = 1) { return step<typename N::Unit>(size); }
+    static double colour_ulp(double size = 1) { return step<typename N::Colour>(size); }
+};
+
+inline void expect_near(const Vec3& a, const Vec3& b, double tolerance)
+{
+    EXPECT_NEAR(a.x, b.x, tolerance);
+    EXPECT_NEAR(a.y, b.y, tolerance);
+    EXPECT_NEAR(a.z, b.z, tolerance);
+}
+
+// Numbers that look random and are the same everywhere: splitmix64 (Vigna).
+class Random {
+public:
+    explicit Random(uint64_t seed) : state(seed) {}
+    uint64_t bits()
+    {
+        uint64_t z = state += 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return z ^ (z >> 31);
+    }
+    double uniform(double low, double high)
+    {
+        return low + (high - low) * std::ldexp(static_cast<double>(bits() >> 11), -53);
+    }
+    Vec3 point(double reach) { return {uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach)}; }
+    Vec3 direction()
+    {
+        for (;;) {
+            const Vec3 v = point(1);
+            const double l = length(v);
+            if (l > 0.01 && l <= 1)
+                return v * (1 / l);
+        }
+    }
+
+private:
+    uint64_t state;
+};
+
+} // namespace qray::test
