@@ -15,16 +15,13 @@ struct SampleSum {
         g += s.g;
         b += s.b;
     }
-    // Half a level is added before the division: to the nearest, halves up.
+    // To the nearest.
     constexpr Sample<N> mean(uint32_t n) const { return {mean(r, n), mean(g, n), mean(b, n)}; }
 
 private:
     static constexpr uint32_t mean(uint64_t sum, uint32_t n)
     {
-        // n is a square up to 2^12: its reciprocal leaves an error below 2^-19 levels.
-        const Scaled inverse = reciprocal(n);
-        return static_cast<uint32_t>((sum * (inverse.mantissa >> 8) + (uint64_t{1} << (-9 - inverse.exponent)))
-                                     >> (-8 - inverse.exponent));
+        return static_cast<uint32_t>(divide(static_cast<int64_t>(sum), n, 0));
     }
 };
 template <class N>

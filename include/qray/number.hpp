@@ -228,8 +228,8 @@ struct FixedSystem {
         return limit > c.raw && -limit < c.raw;
     }
 
-    // How far a new ray starts from the surface it leaves: 8 ulp along the geometric normal.
-    QRAY_INLINE static constexpr Length leave(Unit g) { return {(g.raw + (1 << (UnitFrac - 4))) >> (UnitFrac - 3)}; }
+    // How far a new ray starts from the surface it leaves: 4 ulp along the geometric normal.
+    QRAY_INLINE static constexpr Length leave(Unit g) { return {(g.raw + (1 << (UnitFrac - 3))) >> (UnitFrac - 2)}; }
 
     // A hit within this of a light is a hit at the light.
     static constexpr Length light_clearance{16};

@@ -1,5 +1,5 @@
-"""Where a firmware's instructions go: by source file, by function as written (before inlining), and by class of
-instruction, from QEMU's trace of a whole run. Start-up, measuring and semihosting are left out.
+"""Where a firmware's instructions go: by class, by source file, by function as written (before inlining) and
+as linked, from QEMU's trace of a whole run. Start-up, measuring and semihosting are left out.
 
     profile.py --tools PREFIX --qemu COMMAND [--top N] FILE.elf
 """
@@ -18,7 +18,7 @@ import elf as elf_file  # noqa: E402
 
 
 def trace(command, image, code):
-    """Of each instruction, by address: how often it ran, and how often the next to run was not the one below."""
+    """By address: how often an instruction ran, and how often the next to run was not the one below it."""
     runs, taken = collections.Counter(), collections.Counter()
     blocks, block = {}, []
     with tempfile.TemporaryDirectory() as folder:
