@@ -147,6 +147,8 @@ class Program:
             i.kind, i.target = CALL, int(ops, 16)
             if self.name(i.target).startswith("__gnu_thumb1_case_"):
                 i.kind = SWITCH
+            elif i.target not in self.elf.functions and self.owner(i.target) == self.owner(i.address):
+                i.kind = BRANCH  # Thumb-1's jump for more than 2 KB, or the library's local subroutine
         elif name in ("bx", "mov") and re.match(r"(pc, )?lr$", ops):
             i.kind = RETURN
         elif name in ("pop", "ldmia") and re.search(r"\bpc\b", ops):
@@ -156,7 +158,8 @@ class Program:
         elif name in ("tbb", "tbh") or name in ("mov", "ldr", "add") and ops.startswith("pc,"):
             i.kind = SWITCH
         elif name in ("bx", "blx"):
-            i.kind = INDIRECT
+            popped = any(b.name == "pop" and re.search(rf"\b{ops}\b", b.operands) for b in self.before(i, 6))
+            i.kind = RETURN if name == "bx" and popped else INDIRECT
         elif name == "b":
             i.kind, i.target = JUMP, int(ops, 16)
         elif name in ("cbz", "cbnz"):
@@ -219,18 +222,20 @@ class Program:
         elif ops and ops[0] == "sp" and not re.match(r"(s[bhw]|fs[wd]|b\w+)$", i.name):
             self.problem(i, "stack pointer from a register")
 
+    def before(self, i, size):
+        return [self.code[a] for a in range(i.address - size, i.address) if a in self.code]
+
     # The constant in a register just before instruction i, by running the few instructions before it.
     def constant(self, i, register):
         value = None
-        for address in sorted(a for a in range(i.address - 48, i.address) if a in self.code):
-            before = self.code[address]
+        for before in self.before(i, 48):
             ops = [o.strip() for o in before.operands.split(",")]
             if ops[0] != register or before.name in ("cmp", "push", "pop", "str", "sw"):
                 continue
             try:
                 if before.name == "ldr" and ops[1] == "[pc":
                     offset = int(ops[2].strip("#]"))
-                    value = self.elf.word((address + 4 & ~3) + offset)
+                    value = self.elf.word((before.address + 4 & ~3) + offset)
                 elif before.name in ("mov", "movs", "movw", "li"):
                     value = int(ops[1].strip("#"), 0)
                 elif before.name == "lui":
@@ -279,8 +284,10 @@ class Program:
                     address = i.target
                 elif i.kind in (RETURN, SWITCH):
                     break
-                elif i.kind == CALL and i.next is not None and self.owner(i.next) != self.owner(address):
-                    break  # a call that does not return, at the end of its function
+                elif i.name == "bl" or i.kind == CALL:
+                    if i.next is not None and self.owner(i.next) != self.owner(address):
+                        break  # a call that does not return, at the end of its function
+                    address = i.next
                 else:
                     address = i.next
                 depth = after
@@ -302,6 +309,13 @@ class Program:
         end = entry + self.elf.functions[entry][1]
         depths = self.walk(entry)[2]
         return max([d + self.at(a).move for a, d in depths.items() if entry <= a < end] + [0])
+
+    def unreached(self, entry):
+        """Instructions of a function's body that no path from its entry reaches, padding left out."""
+        depths = self.walk(entry)[2]
+        end = entry + self.elf.functions[entry][1]
+        return [a for a in range(entry, end)
+                if a in self.code and a not in depths and self.code[a].name != "nop"]
 
     def bound(self, entry, chain=()):
         """(bytes, chain of (name, depth at the call)) of the deepest path from a function's entry."""
@@ -364,15 +378,21 @@ def compiler_frames(folder):
     return frames, dynamic
 
 
+def readable(tools, text):
+    """The text with C++ names as written, without template arguments and parameters."""
+    text = subprocess.run([tools + "c++filt"], input=text, check=True, capture_output=True, text=True).stdout
+    for inner in (r"<[^<>]*>", r"\([^()]*\)(?= const|\b|[:\]]|$)"):
+        while re.search(inner, text, re.M):
+            text = re.sub(inner, "", text, flags=re.M)
+    return text
+
+
 def main():
     tools, path = sys.argv[1:3]
     program = Program(Elf(path), tools)
     total, chain = program.bound(program.entry("start"))
-    for name, depth in chain:
-        print(f"{depth:6} {name}")
-    print(f"{total:6} total")
-    for problem in program.problems:
-        print(problem)
+    lines = [f"{depth:6} {name}" for name, depth in chain] + [f"{total:6} total"] + program.problems
+    print(readable(tools, "\n".join(lines)))
 
 
 if __name__ == "__main__":
