@@ -3,8 +3,7 @@
 // Integer products wider than a register, count of leading zeros, correctly rounded square roots of
 // binary32 and binary64, inlining. Every function gives the same bits on every target, in a constant
 // expression too. All are total: no argument is forbidden, except where wide_dot says so.
-#ifndef QRAY_BASE_HPP
-#define QRAY_BASE_HPP
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -87,7 +86,7 @@ constexpr int soft_zero_pairs(uint32_t x)
     return x >> 2 != 0 ? n - 1 : n;
 }
 
-}  // namespace detail
+} // namespace detail
 
 // Leading zero bits; 32 for 0.
 constexpr int count_leading_zeros(uint32_t x)
@@ -302,7 +301,7 @@ constexpr Bits sqrt_bits(Bits x)
     return ((root + 1) >> 1) + (static_cast<Bits>((exponent >> 1) - 1) << Fraction);
 }
 
-}  // namespace detail
+} // namespace detail
 
 // Square root, correctly rounded (nearest), without errno: the processor's where it has one, else in
 // integers. Infinity gives infinity; a negative x, either zero and NaN give +0.
@@ -354,6 +353,4 @@ constexpr double sqrt_double(double x)
     return __builtin_bit_cast(double, detail::sqrt_bits<uint64_t, 52>(__builtin_bit_cast(uint64_t, x)));
 }
 
-}  // namespace qray
-
-#endif
+} // namespace qray

@@ -2,10 +2,11 @@
 //
 // No floating point, no library division, the same bits on every target. All functions are total: what
 // cannot be represented saturates, as each says. The only table is 98 bytes.
-#ifndef QRAY_MATH_HPP
-#define QRAY_MATH_HPP
+#pragma once
 
-#include <qray/base.hpp>
+#include <stdint.h>
+
+#include "base.hpp"
 
 namespace qray {
 
@@ -93,7 +94,7 @@ QRAY_SHARED constexpr uint32_t rsqrt_mantissa(uint32_t high, uint32_t low)
     return mantissa >> 31 != 0 ? mantissa : 0xffffffffu;
 }
 
-}  // namespace detail
+} // namespace detail
 
 namespace detail {
 
@@ -125,7 +126,7 @@ QRAY_NOINLINE constexpr uint32_t isqrt_large(uint64_t x)
     return root;
 }
 
-}  // namespace detail
+} // namespace detail
 
 // The integer nearest to sqrt(x), saturating at 2^32 - 1. Faster below 2^58.
 constexpr uint32_t isqrt(uint64_t x)
@@ -163,9 +164,9 @@ QRAY_SHARED constexpr uint64_t rsqrt_packed(uint64_t x)
     return uint64_t{rsqrt_mantissa(v.high, v.low)} << 32 | static_cast<uint32_t>(v.half - 63);
 }
 
-}  // namespace detail
+} // namespace detail
 
-// 1 / sqrt(x), relative error at most 2^-31.7 (1.1 ulp of the mantissa). x = 0 is taken for 1.
+// 1 / sqrt(x), relative error at most 2^-31.7 (1.2 ulp of the mantissa). x = 0 is taken for 1.
 constexpr Scaled rsqrt(uint64_t x)
 {
     uint64_t packed = detail::rsqrt_packed(x);
@@ -187,7 +188,7 @@ QRAY_SHARED constexpr uint32_t reciprocal_mantissa(uint32_t d)
     return mantissa >> 31 != 0 ? mantissa : 0xffffffffu;
 }
 
-}  // namespace detail
+} // namespace detail
 
 // 1 / x, error at most 1 ulp of the mantissa. x = 0 gives {2^32 - 1, 0}.
 constexpr Scaled reciprocal(uint32_t x)
@@ -237,7 +238,7 @@ QRAY_SHARED constexpr uint32_t divide_magnitude(uint64_t n, uint32_t den, int sh
     return quotient;
 }
 
-}  // namespace detail
+} // namespace detail
 
 // num * 2^shift / den to the nearest integer, halves away from zero, shift in [0, 32].
 // Saturates to +-(2^31 - 1), also for den = 0 (with the sign of num).
@@ -309,7 +310,7 @@ inline constexpr uint32_t exp2_coefficients[6] = {
     0x317217f6, 0x0c0d6374, 0x022819a3, 0x004e17e0, 0x0008f372, 0x0000b5b4,
 };
 
-}  // namespace detail
+} // namespace detail
 
 // x^(fraction / 2^32) for x in [0, 1] as Q2.30, result Q2.30. Absolute error <= 2^-29.
 QRAY_SHARED constexpr uint32_t pow_fraction(uint32_t x, uint32_t fraction)
@@ -341,6 +342,4 @@ constexpr uint32_t pow_unit(uint32_t x, Exponent e)
     return result;
 }
 
-}  // namespace qray
-
-#endif
+} // namespace qray
