@@ -120,6 +120,11 @@ struct make {
     static double colour_ulp(double size = 1) { return step<typename N::Colour>(size); }
 };
 
+// The largest difference of a component.
+inline double distance(const Vec3& a, const Vec3& b)
+{
+    return std::fmax(std::fabs(a.x - b.x), std::fmax(std::fabs(a.y - b.y), std::fabs(a.z - b.z)));
+}
 inline void expect_near(const Vec3& a, const Vec3& b, double tolerance)
 {
     EXPECT_NEAR(a.x, b.x, tolerance);

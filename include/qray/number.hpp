@@ -228,8 +228,9 @@ struct FixedSystem {
         return limit > c.raw && -limit < c.raw;
     }
 
-    // How far a new ray starts from the surface it leaves: 4 ulp along the geometric normal.
-    QRAY_INLINE static constexpr Length leave(Unit g) { return {(g.raw + (1 << (UnitFrac - 3))) >> (UnitFrac - 2)}; }
+    // How far a new ray starts from the surface it leaves: 4 ulp along the geometric normal. (In floating point the
+    // error of a hit on a flat surface, which its rounded normal dominates, is the larger.)
+    QRAY_INLINE static constexpr Length leave(Unit g, bool) { return {(g.raw + (1 << (UnitFrac - 3))) >> (UnitFrac - 2)}; }
 
     // A hit within this of a light is a hit at the light.
     static constexpr Length light_clearance{16};
@@ -345,7 +346,7 @@ struct FloatSystem {
         constexpr F limit = sizeof(F) == 4 ? F(1e-5) : F(1e-9);
         return c < limit && c > -limit;
     }
-    QRAY_INLINE static constexpr F leave(F g) { return g * (F(256) * epsilon); }
+    QRAY_INLINE static constexpr F leave(F g, bool flat) { return g * ((flat ? F(32) : F(16)) * epsilon); }
     static constexpr F light_clearance = F(2048) * epsilon;
 
     QRAY_INLINE static constexpr F power_whole(F x, Shine e)

@@ -62,6 +62,7 @@ struct Surface {
     Point<N> point;
     Direction<N> geometric;
     Direction<N> normal;
+    bool flat; // a disc, a polygon or a triangle
 };
 
 } // namespace qray

@@ -94,7 +94,7 @@ constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>&
 template <class N, Effects E>
 constexpr Surface<N> surface_at(const Scene<N, E>& scene, const Ray<N>& ray, const Hit<N>& hit)
 {
-    Surface<N> s{ray.origin + along<N>(hit.t, ray.direction), {}, {}};
+    Surface<N> s{ray.origin + along<N>(hit.t, ray.direction), {}, {}, hit.kind != Kind::sphere && hit.kind != Kind::cone};
     constexpr bool one_kind = E.shapes() == 1;
     if constexpr (E.sphere)
         if (one_kind || hit.kind == Kind::sphere)
@@ -126,7 +126,8 @@ template <class N>
 constexpr Ray<N> leaving(const Surface<N>& s, Tag tag, const Direction<N>& d)
 {
     const bool outward = dot<N>(s.geometric, d) > typename N::Cosine{};
-    const Point<N> step{N::leave(s.geometric.x), N::leave(s.geometric.y), N::leave(s.geometric.z)};
+    const Point<N> step{N::leave(s.geometric.x, s.flat), N::leave(s.geometric.y, s.flat),
+                        N::leave(s.geometric.z, s.flat)};
     return {outward ? s.point + step : s.point - step, d, tag, outward};
 }
 
