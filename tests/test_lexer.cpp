@@ -233,25 +233,44 @@ TEST(ReadNumber, RefusesWhatIsNoFiniteDecimalNumber) {
     EXPECT_EQ(value, 42);
 }
 
-TEST(ReadCount, TakesDigitsAlone) {
+TEST(ReadCount, TakesWholeNumbersHoweverWritten) {
     const struct {
         const char* text;
         uint32_t value;
     } cases[] = {{"0", 0},
+                 {"-0.0", 0},
                  {"+12", 12},
                  {"007", 7},
+                 {"512.0", 512},
+                 {"3.", 3},
+                 {"1.6e2", 160},
+                 {"1600e-1", 160},
                  {"4294967294", 4294967294},
                  {"4294967295", 4294967295},
                  {"4294967296", 4294967295},
-                 {"99999999999999999999999999", 4294967295}};
+                 {"99999999999999999999999999", 4294967295},
+                 {"1e308", 4294967295}};
     for (const auto& [text, expected] : cases) {
         uint32_t value = 1;
-        EXPECT_TRUE(read_count(text, value)) << text;
+        EXPECT_EQ(read_count(text, value), NumberError::none) << text;
         EXPECT_EQ(value, expected) << text;
     }
-    for (const char* text : {"", "+", "-3", "-0", "3.0", "3.", "4e0", "0x3", "three", "3a"}) {
+}
+
+TEST(ReadCount, RefusesAllOthers) {
+    const struct {
+        const char* text;
+        NumberError error;
+    } cases[] = {{"1.5", NumberError::not_whole},     {"-1.5", NumberError::not_whole},
+                 {"4294967294.5", NumberError::not_whole}, {"1e-300", NumberError::not_whole},
+                 {"-3", NumberError::negative},       {"-1e300", NumberError::negative},
+                 {"", NumberError::malformed},        {"+", NumberError::malformed},
+                 {"0x3", NumberError::malformed},     {"three", NumberError::malformed},
+                 {"3a", NumberError::malformed},      {"inf", NumberError::not_finite},
+                 {"nan", NumberError::not_finite},    {"1e400", NumberError::too_large}};
+    for (const auto& [text, error] : cases) {
         uint32_t value = 42;
-        EXPECT_FALSE(read_count(text, value)) << text;
+        EXPECT_EQ(read_count(text, value), error) << text;
         EXPECT_EQ(value, 42u) << text;
     }
 }

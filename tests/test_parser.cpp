@@ -10,8 +10,7 @@ namespace {
 
 using namespace qray::scene;
 
-DescriptionStorage storage;
-Description& scene = storage.get();
+Description scene;
 Error error;
 
 // The copy has exactly the text's size, so that a sanitizer sees the parser read beyond it.
@@ -144,6 +143,16 @@ TEST(Parser, LineEndsAndBlanksMeanNothing) {
         EXPECT_EQ(scene.light_count, 2u);
         expect_vector(scene.normals[6], 0, 5e-18, -1);
     }
+}
+
+TEST(Parser, CountsAreNumbersLikeAllOthers) {
+    ASSERT_PARSES("v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 1.6e2 120.0\n"
+                  "p 3. 0 0 0 1 0 0 0 1 0\npp 40e-1 0 0 0 0 0 1 1 0 0 0 0 1 1 1 0 0 0 1 0 1 0 0 0 1");
+    EXPECT_EQ(scene.view.width, 160u);
+    EXPECT_EQ(scene.view.height, 120u);
+    ASSERT_EQ(scene.object_count, 2u);
+    EXPECT_EQ(scene.objects[0].count, 3u);
+    EXPECT_EQ(scene.objects[1].count, 4u);
 }
 
 TEST(Parser, OwnShapes) {
@@ -544,11 +553,17 @@ TEST(ParserError, View) {
         {"v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 0 resolution @99999999999999999999 4",
          "the width of 'resolution' is 99999999999999999999; expected at most 32768"},
         {"v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 0 resolution @-4 3",
-         "expected the width of 'resolution', found '-4', which is not in digits alone"},
-        {"v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 0 resolution @4.0 3",
-         "found '4.0', which is not in digits"},
+         "expected the width of 'resolution', found '-4', which is negative"},
+        {"v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 0 resolution @4.5 3",
+         "expected the width of 'resolution', found '4.5', which is not a whole number"},
+        {"v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 0 resolution 4 @1e-3",
+         "found '1e-3', which is not a whole number"},
+        {"v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 0 resolution @1e400 3",
+         "found '1e400', which is too large for a number"},
+        {"v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 0 resolution @inf 3",
+         "expected the width of 'resolution', found 'inf', which is not a finite number"},
         {"v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 0 resolution 4 @x",
-         "found 'x', which is not in digits"},
+         "expected the height of 'resolution', found 'x', which is not a number"},
         {"v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 0 resolution 4@",
          "the file ends where the height of 'resolution' was expected"},
     };
@@ -648,9 +663,8 @@ TEST(ParserError, Shapes) {
         {VIEW "p @2 0 0 0 1 0 0", "the number of vertices of a polygon is 2; expected at least 3"},
         {VIEW "p @0", "the number of vertices of a polygon is 0; expected at least 3"},
         {VIEW "pp @1", "the number of vertices of a patch is 1; expected at least 3"},
-        {VIEW "p @-3",
-         "expected the number of vertices of a polygon, found '-3', which is not in digits alone"},
-        {VIEW "p @3.0 0 0 0", "found '3.0', which is not in digits alone"},
+        {VIEW "p @-3", "expected the number of vertices of a polygon, found '-3', which is negative"},
+        {VIEW "p @3.5 0 0 0", "found '3.5', which is not a whole number"},
         {VIEW "pp @s", "expected the number of vertices of a patch, found 's'"},
         {VIEW "p@", "the file ends where the number of vertices of a polygon was expected"},
         {VIEW "p 3 0 0 0 1 0 0 0 1@", "the file ends where z of a vertex of a polygon was expected"},

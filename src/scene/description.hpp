@@ -11,8 +11,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <new>
-
 namespace qray::scene {
 
 struct Limits {
@@ -87,13 +85,6 @@ struct Description {
     union { Light lights[Limits::lights]; };
 
     Description() {}
-};
-
-// Room for a Description in static storage: all zero until parse() fills it. (A Description of its own there
-// would put tens of megabytes of default values into the program's file, or touch them all as it starts.)
-struct DescriptionStorage {
-    Description& get() { return *std::launder(reinterpret_cast<Description*>(bytes)); }
-    alignas(Description) unsigned char bytes[sizeof(Description)];
 };
 
 // One line for people: file:line:column: text.

@@ -1,6 +1,7 @@
 #include "lexer.hpp"
 
 #include <charconv>
+#include <cmath>
 
 namespace qray::scene {
 
@@ -142,17 +143,14 @@ NumberError read_number(std::string_view token, double& value) {
     return NumberError::none;
 }
 
-bool read_count(std::string_view token, uint32_t& value) {
-    if (!token.empty() && token[0] == '+') token.remove_prefix(1);
-    if (token.empty()) return false;
-    uint64_t read = 0;
-    for (const char c : token) {
-        if (!is_digit(c)) return false;
-        read = 10 * read + static_cast<uint64_t>(c - '0');
-        if (read > UINT32_MAX) read = UINT32_MAX;
-    }
-    value = static_cast<uint32_t>(read);
-    return true;
+NumberError read_count(std::string_view token, uint32_t& value) {
+    double read = 0;
+    const NumberError error = read_number(token, read);
+    if (error != NumberError::none) return error;
+    if (read != std::floor(read)) return NumberError::not_whole;
+    if (read < 0) return NumberError::negative;
+    value = read < UINT32_MAX ? static_cast<uint32_t>(read) : UINT32_MAX;
+    return NumberError::none;
 }
 
 } // namespace qray::scene

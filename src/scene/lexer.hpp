@@ -55,15 +55,15 @@ private:
     std::string_view comment_;
 };
 
-enum class NumberError : uint8_t { none, malformed, not_finite, too_large };
+enum class NumberError : uint8_t { none, malformed, not_finite, too_large, not_whole, negative };
 
 // A decimal number, plain or in e-notation, to the nearest double (ties to even). The sign and the digits on
 // one side of the point may be absent. What is too small for a double reads as 0, and so does -0; `value` is
 // untouched on an error.
 NumberError read_number(std::string_view token, double& value);
 
-// A whole number in decimal digits, perhaps with a '+'. From 2^32 - 1 on it reads as 2^32 - 1. False, and
-// `value` untouched, where the token is anything else.
-bool read_count(std::string_view token, uint32_t& value);
+// A number whose value is whole and not negative, written as any number may be: 160, 1.6e2, 160.0. From
+// 2^32 - 1 on it reads as 2^32 - 1. `value` is untouched on an error.
+NumberError read_count(std::string_view token, uint32_t& value);
 
 } // namespace qray::scene

@@ -36,20 +36,23 @@ Shown::Shown(std::string_view token) {
     memcpy(text + kept, cut ? "..." : "", cut ? 4 : 1);
 }
 
-bool Reader::fail(Position at, const char* format, ...) {
-    constexpr size_t longest_name = 200;
-    char name[longest_name] = {};
-    char* to = name;
-    const size_t length = strlen(name_);
-    const bool cut = length > longest_name / 2;
-    const char* from = cut ? name_ + length - longest_name / 2 : name_;
+ShownName::ShownName(const char* name) {
+    constexpr size_t longest = sizeof text / 2;
+    const size_t length = strlen(name);
+    const bool cut = length > longest;
+    const char* from = cut ? name + length - longest : name;
+    char* to = text;
     if (cut) {
-        append(to, name + sizeof name - 1, "...");
+        append(to, text + sizeof text - 1, "...");
         while ((static_cast<unsigned char>(*from) & 0xc0) == 0x80) ++from; // the rest of a UTF-8 sequence
     }
-    append(to, name + sizeof name - 1, from);
+    append(to, text + sizeof text - 1, from);
+    *to = 0;
+}
 
-    const int head = snprintf(error_.text, sizeof error_.text, "%s:%u:%u: ", name, at.line, at.column);
+bool Reader::fail(Position at, const char* format, ...) {
+    const ShownName name(name_);
+    const int head = snprintf(error_.text, sizeof error_.text, "%s:%u:%u: ", name.text, at.line, at.column);
     va_list values;
     va_start(values, format);
     vsnprintf(error_.text + head, sizeof error_.text - static_cast<size_t>(head), format, values);
@@ -76,13 +79,11 @@ bool Reader::expected(const char* part, const char* what) {
     return fail(token_.at, "expected %s%s, found '%s'", part, what, Shown(token_.text).text);
 }
 
-bool Reader::any_number(const char* what, const char* part, double& value) {
-    token_ = lexer_.next();
-    if (token_.kind == TokenKind::end || token_.kind == TokenKind::bad) return expected(part, what);
+bool Reader::not_a_number(const char* part, const char* what, NumberError error) {
     const char* why = "";
-    switch (read_number(token_.text, value)) {
+    switch (error) {
     case NumberError::none:
-        return true;
+        return false;
     case NumberError::malformed:
         why = token_.kind == TokenKind::word ? "not a number" : "not a number in plain decimal or e-notation";
         break;
@@ -92,9 +93,21 @@ bool Reader::any_number(const char* what, const char* part, double& value) {
     case NumberError::too_large:
         why = "too large for a number";
         break;
+    case NumberError::not_whole:
+        why = "not a whole number";
+        break;
+    case NumberError::negative:
+        why = "negative";
+        break;
     }
-    const Shown shown(token_.text);
-    return fail(token_.at, "expected %s%s, found '%s', which is %s", part, what, shown.text, why);
+    return fail(token_.at, "expected %s%s, found '%s', which is %s", part, what, Shown(token_.text).text, why);
+}
+
+bool Reader::any_number(const char* what, const char* part, double& value) {
+    token_ = lexer_.next();
+    if (token_.kind == TokenKind::end || token_.kind == TokenKind::bad) return expected(part, what);
+    const NumberError error = read_number(token_.text, value);
+    return error == NumberError::none || not_a_number(part, what, error);
 }
 
 bool Reader::number(const char* what, const char* part, const Range& range, double& value) {
@@ -113,10 +126,9 @@ bool Reader::ior(const char* what, double& value) {
 bool Reader::count(const char* what, uint32_t low, uint32_t high, const char* limit, uint32_t& value) {
     token_ = lexer_.next();
     if (token_.kind == TokenKind::end || token_.kind == TokenKind::bad) return expected("", what);
+    const NumberError error = read_count(token_.text, value);
+    if (error != NumberError::none) return not_a_number("", what, error);
     const Shown shown(token_.text);
-    if (!read_count(token_.text, value)) {
-        return fail(token_.at, "expected %s, found '%s', which is not in digits alone", what, shown.text);
-    }
     if (value < low) return fail(token_.at, "%s is %s; expected at least %u", what, shown.text, low);
     if (value > high) {
         return fail(token_.at, "%s is %s; expected at most %u (limit '%s')", what, shown.text, high, limit);

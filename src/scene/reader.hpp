@@ -39,6 +39,12 @@ struct Shown {
     char text[41];
 };
 
+// A file's name as a message shows it: the end of a long one, control bytes as \x1b.
+struct ShownName {
+    explicit ShownName(const char* name);
+    char text[200];
+};
+
 // Each function reads what its name says and returns false when it has written the error. Messages name what
 // was read by `part` and `what`, such as "x of " and "the centre of a sphere".
 class Reader {
@@ -52,7 +58,7 @@ protected:
     bool any_number(const char* what, const char* part, double& value);
     bool ior(const char* what, double& value);    // from ior_range, 1 where the text has 0 or less
     bool radius(const char* what, double& value); // without its sign; 0 where it is no length that counts
-    // At least `low`; above `high` the message names the limit.
+    // A whole number of at least `low`; above `high` the message names the limit.
     bool count(const char* what, uint32_t low, uint32_t high, const char* limit, uint32_t& value);
     bool point(const char* what, Vec3d& value);
     bool direction(const char* what, Vec3d& value); // not zero
@@ -62,6 +68,7 @@ protected:
     [[gnu::format(printf, 3, 4)]] bool fail(Position at, const char* format, ...);
     bool expected(const char* part, const char* what); // the latest token is not what should stand here
     bool bad_byte();
+    bool not_a_number(const char* part, const char* what, NumberError why); // always false
 
     Lexer lexer_;
     Token token_;        // the latest
