@@ -18,11 +18,12 @@ template <class N>
 struct Cone {
     Point<N> middle;            // of the axis
     Direction<N> e1, e2, axis;  // orthonormal; the axis points to the end b
-    typename N::Length rho0;    // cosine * mean radius
-    typename N::Length half;    // half the height
-    typename N::Length bound;   // radius of the bounding sphere around the middle
+    typename N::Length rho0;    // cosine * mean radius, times 2^fine
+    typename N::Length half;    // half the height, times 2^fine
+    typename N::Length bound;   // radius of the bounding sphere around the middle, times 2^fine
     typename N::Unit cosine;    // of the half-angle
     typename N::Unit sine;      // > 0 where the radius grows along the axis
+    int32_t fine;               // >= 0; 0 in floating point: see sphere.hpp
     Tag tag;
 };
 
@@ -34,7 +35,8 @@ QRAY_INLINE constexpr typename N::Length magnitude(typename N::Length v)
 
 // The ray's meetings with the frustum, t > 0: how many (0, 1 or 2), the nearer in t[0].
 template <class N>
-constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length limit, typename N::Length (&t)[2])
+constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length limit, typename N::Length (&t)[2],
+                       Local<N>& local, typename N::Length (&tau)[2])
 {
     using Length = typename N::Length;
     const Leaves leaving = leaves(ray, s.tag);
@@ -42,13 +44,14 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
         return 0;
     const Point<N> v = s.middle - ray.origin;
     const Length b = N::length(dot<N>(v, ray.direction));
-    if (b < -s.bound)
+    const Length reach = N::coarse_above(s.bound, s.fine);
+    if (b < -reach || b - reach > limit)
         return 0;
-    const Point<N> o = along<N>(b, ray.direction) - v;
-    if (norm2<N>(o) > s.bound * s.bound)
+    const Point<N> p = along<N>(b, ray.direction) - v;
+    if (norm2<N>(p) > reach * reach)
         return 0;
-    if (b - s.bound > limit)
-        return 0;
+    const Point<N> o = fine_offset<N>(b, ray.direction, v, s.fine);
+    local.near = o;
 
     const Length ox = N::length(dot<N>(o, s.e1));
     const Length oy = N::length(dot<N>(o, s.e2));
@@ -84,12 +87,11 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
     const auto root = s.cosine * N::sqrt(discriminant);
     const auto q = half_b < typename N::Moment{} ? root - half_b : -(root + half_b);
 
-    Length tau[2]{};
     bool valid[2] = {N::quotient(q, a, k, tau[0]), N::quotient(c, q, k, tau[1])};
     for (int i = 0; i < 2; i++) {
         // Farther than the bounding sphere is beyond both ends.
         valid[i] = valid[i] && tau[i] <= s.bound && -tau[i] <= s.bound;
-        t[i] = valid[i] ? b + tau[i] : N::length_zero;
+        t[i] = valid[i] ? b + N::coarse(tau[i], s.fine) : N::length_zero;
     }
     if (leaving == Leaves::inward) {
         // One root is the origin itself: the one nearer to 0, whatever rounding made of it.
@@ -108,24 +110,30 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
     }
     if (valid[0] && valid[1]) {
         if (t[1] < t[0]) {
-            const Length swap = t[0];
+            const Length swap = t[0], swap_tau = tau[0];
             t[0] = t[1];
             t[1] = swap;
+            tau[0] = tau[1];
+            tau[1] = swap_tau;
         }
         return 2;
     }
-    if (valid[1])
+    if (valid[1]) {
         t[0] = t[1];
+        tau[0] = tau[1];
+    }
     return valid[0] || valid[1];
 }
 
 template <class N>
-constexpr bool intersect(const Cone<N>& s, const Ray<N>& ray, typename N::Length limit, typename N::Length& t)
+constexpr bool intersect(const Cone<N>& s, const Ray<N>& ray, typename N::Length limit, typename N::Length& t,
+                         Local<N>& local)
 {
-    typename N::Length both[2]{};
-    if (meetings(s, ray, limit, both) == 0)
+    typename N::Length both[2]{}, tau[2]{};
+    if (meetings(s, ray, limit, both, local, tau) == 0)
         return false;
     t = both[0];
+    local.along = tau[0];
     return true;
 }
 
@@ -133,16 +141,17 @@ template <class N>
 constexpr int crossings(const Cone<N>& s, const Ray<N>& ray, typename N::Length distance)
 {
     const auto limit = distance - N::light_clearance;
-    typename N::Length t[2]{};
-    const int n = meetings(s, ray, limit, t);
+    typename N::Length t[2]{}, tau[2]{};
+    Local<N> local{};
+    const int n = meetings(s, ray, limit, t, local, tau);
     return (n > 0 && t[0] < limit) + (n > 1 && t[1] < limit);
 }
 
-// The outward unit normal at a point of the surface; at an apex, the axis away from the body.
+// The outward unit normal at a hit; at an apex, the axis away from the body.
 template <class N>
-constexpr Direction<N> normal_at(const Cone<N>& s, const Point<N>& q)
+constexpr Direction<N> normal_at(const Cone<N>& s, const Local<N>& local, const Direction<N>& d)
 {
-    const Point<N> w = q - s.middle;
+    const Point<N> w = local.near + along<N>(local.along, d);
     const auto z = N::length(dot<N>(w, s.axis));
     const Point<N> across = w - along<N>(z, s.axis);
     const auto rho = s.rho0 + N::length(s.sine * z);

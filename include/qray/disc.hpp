@@ -63,7 +63,7 @@ QRAY_INLINE constexpr int crossings(const Disc<N>& s, const Ray<N>& ray, typenam
 }
 
 template <class N>
-QRAY_INLINE constexpr Direction<N> normal_at(const Disc<N>& s, const Point<N>&)
+QRAY_INLINE constexpr Direction<N> normal_at(const Disc<N>& s)
 {
     return s.normal;
 }

@@ -175,6 +175,52 @@ constexpr Scaled rsqrt(uint64_t x)
 
 namespace detail {
 
+// x m / 2^(32 + halve) to the nearest, for m >= 2^31 and halve 0 or 1.
+constexpr int32_t scaled_component(int32_t x, uint32_t m, int halve)
+{
+    // As a signed number m is too small by 2^32.
+    const uint64_t p = static_cast<uint64_t>(wide_mul(x, static_cast<int32_t>(m)));
+    const uint32_t whole = static_cast<uint32_t>(p >> 32) + static_cast<uint32_t>(x);
+    const uint32_t rest = static_cast<uint32_t>(p) >> 31 >> halve;
+    return (static_cast<int32_t>(whole + static_cast<uint32_t>(halve)) >> halve) + static_cast<int32_t>(rest);
+}
+
+} // namespace detail
+
+// The unit vector along (x, y, z), in Q2.30: each component of u within 0.81 ulp.
+// False, and u untouched, where all are 0.
+QRAY_SHARED constexpr bool unit_vector(int32_t x, int32_t y, int32_t z, int32_t* u)
+{
+    // The magnitudes, those of negative numbers less one.
+    uint32_t bits = static_cast<uint32_t>((x ^ (x >> 31)) | (y ^ (y >> 31)) | (z ^ (z >> 31)));
+    if (bits == 0) {
+        if ((x | y | z) == 0)
+            return false;
+        bits = 1;
+    }
+    // To magnitudes of at most 2^31, the largest at least 2^30.
+    const int up = count_leading_zeros(bits) - 1;
+    x = static_cast<int32_t>(static_cast<uint32_t>(x) << up);
+    y = static_cast<int32_t>(static_cast<uint32_t>(y) << up);
+    z = static_cast<int32_t>(static_cast<uint32_t>(z) << up);
+    const uint64_t square = wide_norm2(x, y, z);
+    uint32_t high = static_cast<uint32_t>(square >> 32);
+    uint32_t low = static_cast<uint32_t>(square);
+    int halve = 1;
+    if (high >> 30 == 0) {
+        high = (high << 2) + (low >> 30);
+        low <<= 2;
+        halve = 0;
+    }
+    const uint32_t m = detail::rsqrt_mantissa(high, low);
+    u[0] = detail::scaled_component(x, m, halve);
+    u[1] = detail::scaled_component(y, m, halve);
+    u[2] = detail::scaled_component(z, m, halve);
+    return true;
+}
+
+namespace detail {
+
 // 2^63 / d for d in [2^31, 2^32), saturating at 2^32 - 1; error at most 1 ulp. The seed v is the square
 // of an inverse square root in Q1.14; with e = 1 - d v it is v (1 + e + e^2 + ...), |e| < 2^-11.
 QRAY_SHARED constexpr uint32_t reciprocal_mantissa(uint32_t d)

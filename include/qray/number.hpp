@@ -76,6 +76,22 @@ struct FixedSystem {
         return {qray::saturating_add(a.raw, b.raw)};
     }
 
+    // Block scale: a - b times 2^fine with one rounding, and back. fine is in [0, UnitFrac - 1]; the caller knows
+    // that the difference is small enough.
+    QRAY_INLINE static constexpr Length fine_sub(Moment a, Length b, int32_t fine)
+    {
+        using Rep = typename Moment::Rep;
+        const int32_t down = UnitFrac - fine;
+        const Rep w = a.raw - (Rep{b.raw} * (Rep{1} << UnitFrac));
+        return {static_cast<int32_t>((w + (Rep{1} << (down - 1))) >> down)};
+    }
+    QRAY_INLINE static constexpr Length coarse(Length a, int32_t fine)
+    {
+        return {(a.raw + (1 << fine >> 1)) >> fine};
+    }
+    // At least 2 ulp more than a / 2^fine.
+    QRAY_INLINE static constexpr Length coarse_above(Length a, int32_t fine) { return {(a.raw >> fine) + 3}; }
+
     // Square roots to the nearest; the radicand must not be negative.
     static constexpr Length sqrt(Area a)
     {
@@ -171,6 +187,16 @@ struct FixedSystem {
         const int64_t w = wide_mul(shift_left(v.raw, inverse_r.shift), inverse_r.mantissa);
         constexpr int down = 61 - UnitFrac;
         return {static_cast<int32_t>((w + (int64_t{1} << (down - 1))) >> down)};
+    }
+
+    // n (3 - |n|^2) / 2: makes a vector unit whose length is 1 but for 2^-15.
+    QRAY_INLINE static constexpr void sharpen(Unit& x, Unit& y, Unit& z)
+    {
+        const Cosine excess = x * x + y * y + z * z - one * one;
+        const Unit h{static_cast<int32_t>(excess.raw >> (UnitFrac + 1))};
+        x = x - unit(x * h);
+        y = y - unit(y * h);
+        z = z - unit(z * h);
     }
 
     // Block scaling: the largest k with 2^k |a|, 2^k |b|, 2^k |c| all below 1.
@@ -300,6 +326,9 @@ struct FloatSystem {
     QRAY_INLINE static constexpr F norm2(F x, F y, F z) { return x * x + y * y + z * z; }
     QRAY_INLINE static constexpr F saturating_sub(F a, F b) { return a - b; }
     QRAY_INLINE static constexpr F saturating_add(F a, F b) { return a + b; }
+    QRAY_INLINE static constexpr F fine_sub(F a, F b, int32_t) { return a - b; }
+    QRAY_INLINE static constexpr F coarse(F a, int32_t) { return a; }
+    QRAY_INLINE static constexpr F coarse_above(F a, int32_t) { return a; }
     QRAY_INLINE static constexpr F sqrt(F a)
     {
         if constexpr (sizeof(F) == 4)
@@ -327,6 +356,13 @@ struct FloatSystem {
         return true;
     }
     QRAY_INLINE static constexpr F ratio(F v, F inverse_r) { return v * inverse_r; }
+    QRAY_INLINE static constexpr void sharpen(F& x, F& y, F& z)
+    {
+        const F h = (norm2(x, y, z) - F(1)) / F(2);
+        x = x - x * h;
+        y = y - y * h;
+        z = z - z * h;
+    }
     QRAY_INLINE static constexpr int headroom(F, F, F) { return 0; }
     QRAY_INLINE static constexpr F shifted(F a, int) { return a; }
     QRAY_INLINE static constexpr F bent(F eta, F x) { return eta * x; }

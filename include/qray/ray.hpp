@@ -42,12 +42,30 @@ QRAY_INLINE constexpr Leaves leaves(const Ray<N>& ray, Tag tag)
 
 enum class Kind : uint8_t { sphere, disc, cone, polygon, patch };
 
+// Where a ray meets a curved surface, seen from the surface's centre: the ray's point nearest to that, and how far
+// along the ray the hit is from there. In the surface's own block scale.
+template <class N>
+struct Local {
+    Point<N> near;
+    typename N::Length along;
+};
+
+// 2^fine (middle d - v), rounded once: the point of the ray at `middle`, seen from o + v.
+template <class N>
+QRAY_INLINE constexpr Point<N> fine_offset(typename N::Length middle, const Direction<N>& d, const Point<N>& v,
+                                           int32_t fine)
+{
+    return {N::fine_sub(middle * d.x, v.x, fine), N::fine_sub(middle * d.y, v.y, fine),
+            N::fine_sub(middle * d.z, v.z, fine)};
+}
+
 template <class N>
 struct Hit {
     typename N::Length t; // > 0
     Tag tag;
     Kind kind;
     uint32_t index; // into the scene's table of that kind
+    Local<N> local; // curved surfaces only
 
     // A hit at distance t on the surface named by tag comes before this one.
     QRAY_INLINE constexpr bool after(typename N::Length t2, Tag tag2) const

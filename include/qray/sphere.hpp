@@ -1,6 +1,9 @@
 // Sphere. With v = c - o, b = v.d and p = v - b d (the perpendicular from the ray to the centre), the ray
 // meets it where |p|^2 <= r^2, at t = b -+ sqrt(r^2 - |p|^2) (Haines, Guenther, Akenine-Moeller, Ray Tracing
 // Gems ch. 7): no cancellation, and an error of |d| counts only in its square.
+//
+// In fixed point, what is no longer than the radius is block-scaled: p, the half chord and the radius itself have
+// `fine` more bits than Length, so that a small ball far away is as round as a large one.
 #pragma once
 
 #include "ray.hpp"
@@ -10,22 +13,28 @@ namespace qray {
 template <class N>
 struct Sphere {
     Point<N> centre;
-    typename N::Length radius;        // > 0
-    typename N::Scale inverse_radius; // 1 / radius
+    typename N::Length radius;        // > 0, times 2^fine
+    typename N::Scale inverse_radius; // of that
+    int32_t fine;                     // >= 0; 0 in floating point
     Tag tag;
 };
 
-// Half the chord that the ray cuts from the sphere, and the t of its middle; false where they do not meet.
+// Half the chord that the ray cuts from the sphere, the t of its middle, and that middle, from the centre; false
+// where they do not meet. `from_centre` and `half` are times 2^fine.
 template <class N>
 QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves leaving, typename N::Length& middle,
-                                 typename N::Length& half)
+                                 typename N::Length& half, Point<N>& from_centre)
 {
     const Point<N> v = s.centre - ray.origin;
     middle = N::length(dot<N>(v, ray.direction));
-    if (middle < -s.radius)
+    const auto reach = N::coarse_above(s.radius, s.fine);
+    if (middle < -reach)
         return false;
-    const Point<N> p = v - along<N>(middle, ray.direction);
-    const auto p2 = norm2<N>(p);
+    const Point<N> p = along<N>(middle, ray.direction) - v;
+    if (norm2<N>(p) > reach * reach)
+        return false;
+    from_centre = fine_offset<N>(middle, ray.direction, v, s.fine);
+    const auto p2 = norm2<N>(from_centre);
     const auto r2 = s.radius * s.radius;
     if (p2 > r2) {
         half = N::length_zero;
@@ -35,33 +44,30 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
     return true;
 }
 
-// The far end of a chord that begins at the ray's origin.
-template <class N>
-QRAY_INLINE constexpr typename N::Length chord_end(typename N::Length middle, typename N::Length half)
-{
-    const auto end = middle + half;
-    return end > N::length_zero ? end : N::ulp;
-}
-
 // The nearest t in (0, limit], or false. t is within 2 ulp of the hit of the ray as given, more where it grazes.
 template <class N>
 QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Ray<N>& ray, typename N::Length limit,
-                                     typename N::Length& t)
+                                     typename N::Length& t, Local<N>& local)
 {
     const Leaves leaving = leaves(ray, s.tag);
     if (leaving == Leaves::outward) // convex: never met again
         return false;
     typename N::Length middle{}, half{};
-    if (!chord(s, ray, leaving, middle, half))
+    if (!chord(s, ray, leaving, middle, half, local.near))
         return false;
-    if (leaving == Leaves::inward) {
-        t = chord_end<N>(middle, half);
-        return t <= limit;
+    const auto coarse = N::coarse(half, s.fine);
+    t = middle - coarse;
+    local.along = -half;
+    if (leaving == Leaves::inward || !(t > N::length_zero)) {
+        t = middle + coarse;
+        local.along = half;
+        if (!(t > N::length_zero)) {
+            if (leaving != Leaves::inward)
+                return false;
+            t = N::ulp;
+        }
     }
-    t = middle - half;
-    if (!(t > N::length_zero))
-        t = middle + half;
-    return t > N::length_zero && t <= limit;
+    return t <= limit;
 }
 
 // How often the ray crosses the sphere strictly between its origin and a light at `distance`: 0, 1 or 2.
@@ -71,31 +77,29 @@ QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Ray<N>& ray, typen
     const Leaves leaving = leaves(ray, s.tag);
     if (leaving == Leaves::outward)
         return 0;
-    const auto limit = distance - N::light_clearance;
     typename N::Length middle{}, half{};
-    if (!chord(s, ray, leaving, middle, half))
+    Point<N> from_centre{};
+    if (!chord(s, ray, leaving, middle, half, from_centre))
         return 0;
-    if (leaving == Leaves::inward)
-        return chord_end<N>(middle, half) < limit;
-    const auto near = middle - half;
+    const auto limit = distance - N::light_clearance;
+    const auto coarse = N::coarse(half, s.fine);
+    const auto near = middle - coarse;
     if (near >= limit)
         return 0;
-    return (near > N::length_zero) + (middle + half > N::length_zero && middle + half < limit);
+    const auto far = middle + coarse;
+    if (leaving == Leaves::inward)
+        return far < limit;
+    return (near > N::length_zero) + (far > N::length_zero && far < limit);
 }
 
-// crossings() > 0.
+// The outward unit normal at a hit.
 template <class N>
-QRAY_INLINE constexpr bool blocks(const Sphere<N>& s, const Ray<N>& ray, typename N::Length distance)
+QRAY_INLINE constexpr Direction<N> normal_at(const Sphere<N>& s, const Local<N>& local, const Direction<N>& d)
 {
-    return crossings(s, ray, distance) != 0;
-}
-
-// The outward unit normal at a point of the sphere.
-template <class N>
-QRAY_INLINE constexpr Direction<N> normal_at(const Sphere<N>& s, const Point<N>& q)
-{
-    Direction<N> n{N::zero, N::zero, N::one};
-    normalise<N>(q - s.centre, n);
+    const Point<N> w = local.near + along<N>(local.along, d);
+    Direction<N> n{N::ratio(w.x, s.inverse_radius), N::ratio(w.y, s.inverse_radius), N::ratio(w.z, s.inverse_radius)};
+    // An error of |d| shows in |w|, and between mirrors would grow from one to the next.
+    N::sharpen(n.x, n.y, n.z);
     return n;
 }
 

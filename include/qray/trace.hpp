@@ -40,13 +40,18 @@ QRAY_INLINE constexpr void for_each_shape(const Scene<N, E>& scene, F f)
 
 template <class S>
 concept HasCorners = requires(const S& s) { s.first; };
+template <class S>
+concept IsCurved = requires(const S& s) { s.fine; };
 
 template <class N, Effects E, class S>
 QRAY_INLINE constexpr bool intersect_in(const Scene<N, E>& scene, const S& shape, const Ray<N>& ray,
-                                        typename N::Length limit, typename N::Length& t)
+                                        typename N::Length limit, typename N::Length& t,
+                                        [[maybe_unused]] Local<N>& local)
 {
     if constexpr (HasCorners<S>)
         return intersect(shape, scene.vertices.data, ray, limit, t);
+    else if constexpr (IsCurved<S>)
+        return intersect(shape, ray, limit, t, local);
     else
         return intersect(shape, ray, limit, t);
 }
@@ -63,11 +68,19 @@ QRAY_INLINE constexpr int crossings_in(const Scene<N, E>& scene, const S& shape,
 template <class N, Effects E>
 constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit)
 {
-    hit = {N::length_max, {Tag::none}, Kind::sphere, 0};
+    hit.t = N::length_max;
+    hit.tag = {Tag::none};
     for_each_shape(scene, [&](const auto& shape, Kind kind, uint32_t index) {
         typename N::Length t{};
-        if (intersect_in(scene, shape, ray, hit.t, t) && hit.after(t, shape.tag))
-            hit = {t, shape.tag, kind, index};
+        Local<N> local{};
+        if (intersect_in(scene, shape, ray, hit.t, t, local) && hit.after(t, shape.tag)) {
+            hit.t = t;
+            hit.tag = shape.tag;
+            hit.kind = kind;
+            hit.index = index;
+            if constexpr (IsCurved<decltype(shape)>)
+                hit.local = local;
+        }
         return false;
     });
     return !(hit.tag == Tag{Tag::none});
@@ -98,13 +111,13 @@ constexpr Surface<N> surface_at(const Scene<N, E>& scene, const Ray<N>& ray, con
     constexpr bool one_kind = E.shapes() == 1;
     if constexpr (E.sphere)
         if (one_kind || hit.kind == Kind::sphere)
-            s.geometric = normal_at(scene.spheres[hit.index], s.point);
+            s.geometric = normal_at(scene.spheres[hit.index], hit.local, ray.direction);
     if constexpr (E.disc)
         if (one_kind || hit.kind == Kind::disc)
-            s.geometric = normal_at(scene.discs[hit.index], s.point);
+            s.geometric = normal_at(scene.discs[hit.index]);
     if constexpr (E.cone)
         if (one_kind || hit.kind == Kind::cone)
-            s.geometric = normal_at(scene.cones[hit.index], s.point);
+            s.geometric = normal_at(scene.cones[hit.index], hit.local, ray.direction);
     if constexpr (E.polygon)
         if (one_kind || hit.kind == Kind::polygon)
             s.geometric = normal_at(scene.polygons[hit.index]);
@@ -276,7 +289,7 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count)
     uint8_t depth = 1;
     count(RayKind::camera);
     for (;;) {
-        Hit<N> hit;
+        Hit<N> hit{};
         if (!nearest(scene, ray, hit)) {
             accumulate<N>(sum, scene.background, weight);
         } else {

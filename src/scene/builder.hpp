@@ -93,7 +93,7 @@ public:
 
 private:
     // How far a point may lie from the origin, and the ball of a cone from its middle (see cone.hpp).
-    static constexpr double world = 62, cone_world = 40;
+    static constexpr double world = 62, cone_world = 40, sphere_world = 63;
 
     const Description& d;
     const Settings& settings;
@@ -159,14 +159,26 @@ private:
         place++;
     }
 
+    // The most bits that a shape of this size can have beyond Length's: 2^fine times it, and a little more that a
+    // conservative test may let pass, stays within `most`.
+    int fine_for(double size, double most) const
+    {
+        int fine = 0;
+        if constexpr (N::is_fixed)
+            while (fine < 10 && ldexp(size * frame.scale + 1.0 / 16, fine + 1) <= most)
+                fine++;
+        return fine;
+    }
+
     void sphere(const Object& o, Tag tag)
     {
-        const auto r = radius(o.ra);
-        if (r == N::length_zero) {
+        if (radius(o.ra) == N::length_zero) {
             s.vanished++;
             return;
         }
-        s.spheres.push() = {point(o.a), r, Convert<N>::inverse(r), tag};
+        const int fine = fine_for(o.ra, sphere_world);
+        const auto r = radius(ldexp(o.ra, fine));
+        s.spheres.push() = {point(o.a), r, Convert<N>::inverse(r), fine, tag};
     }
 
     void disc(const Point<N>& centre, const Vec3d& n, double r, Tag tag)
@@ -201,15 +213,18 @@ private:
             : fabs(axis.y) <= fabs(axis.z)                                               ? Vec3d{0, 1, 0}
                                                                                          : Vec3d{0, 0, 1};
         const Vec3d e1 = unit(cross(other, axis)), e2 = cross(axis, e1);
+        const int fine = fine_for(cone_bound(o), cone_world);
+        const double up = ldexp(1, fine);
         s.cones.push() = {point((o.a + o.b) * 0.5),
                           Convert<N>::direction(e1),
                           Convert<N>::direction(e2),
                           Convert<N>::direction(axis),
-                          radius(cosine * (o.ra + o.rb) / 2),
-                          radius(height / 2),
-                          bound(cone_bound(o)),
+                          radius(cosine * (o.ra + o.rb) / 2 * up),
+                          radius(height / 2 * up),
+                          bound(cone_bound(o) * up),
                           Convert<N>::unit(cosine),
                           Convert<N>::unit(sine),
+                          fine,
                           tag};
     }
 
