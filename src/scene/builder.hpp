@@ -3,20 +3,10 @@
 #pragma once
 
 #include "convert.hpp"
+#include "settings.hpp"
 #include "storage.hpp"
 
 namespace qray::scene {
-
-struct Settings {
-    uint32_t width = 0, height = 0; // 0: the scene's own
-    uint32_t grid = 1;              // n x n samples a pixel
-    uint32_t depth = 5;
-    double cutoff = 0.0014;
-    uint32_t levels = 0; // of adaptive sampling; 0: none
-    double threshold = 1.0 / 16;
-    static constexpr uint32_t max_depth = 64;
-    static constexpr uint32_t max_grid = 64;
-};
 
 // The move and the scale: scaled = (p - origin) * scale, scale a power of two.
 struct Frame {

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include <qray/camera.hpp>
 #include <qray/lattice.hpp>
 
 #include "description.hpp"

@@ -1,0 +1,19 @@
+// How a scene is drawn: what the command line says, not the scene.
+#pragma once
+
+#include <stdint.h>
+
+namespace qray::scene {
+
+struct Settings {
+    uint32_t width = 0, height = 0; // 0: the scene's own
+    uint32_t grid = 1;              // n x n samples a pixel
+    uint32_t depth = 5;
+    double cutoff = 0.0014;
+    uint32_t levels = 0; // of adaptive sampling; 0: none
+    double threshold = 1.0 / 16;
+    static constexpr uint32_t max_depth = 64;
+    static constexpr uint32_t max_grid = 64;
+};
+
+} // namespace qray::scene
