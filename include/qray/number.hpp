@@ -382,7 +382,7 @@ struct FloatSystem {
         constexpr F limit = sizeof(F) == 4 ? F(1e-5) : F(1e-9);
         return c < limit && c > -limit;
     }
-    QRAY_INLINE static constexpr F leave(F g, bool flat) { return g * ((flat ? F(32) : F(16)) * epsilon); }
+    QRAY_INLINE static constexpr F leave(F g, bool flat) { return g * ((flat ? F(32) : F(8)) * epsilon); }
     static constexpr F light_clearance = F(2048) * epsilon;
 
     QRAY_INLINE static constexpr F power_whole(F x, Shine e)
