@@ -28,14 +28,33 @@ struct SystemNames {
 };
 
 using Vec3 = Vec<double>;
-inline Vec3 operator*(const Vec3& a, double k) { return {a.x * k, a.y * k, a.z * k}; }
-inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3 cross(const Vec3& a, const Vec3& b)
+template <class R>
+Vec<R> operator*(const Vec<R>& a, std::type_identity_t<R> k)
+{
+    return {a.x * k, a.y * k, a.z * k};
+}
+template <class R>
+R dot(const Vec<R>& a, const Vec<R>& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class R>
+Vec<R> cross(const Vec<R>& a, const Vec<R>& b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
-inline Vec3 unit(const Vec3& a) { return a * (1 / length(a)); }
+template <class R>
+R length(const Vec<R>& a)
+{
+    return std::sqrt(dot(a, a));
+}
+template <class R>
+Vec<R> unit(const Vec<R>& a)
+{
+    return a * (R(1) / length(a));
+}
+inline Vec3 unit(const Vec3& a) { return unit<double>(a); }
+inline double length(const Vec3& a) { return length<double>(a); }
 
 // The real number that a quantity stands for: exact for all but a Wide of more than 53 bits.
 template <int F, int B>
@@ -56,6 +75,17 @@ Vec3 value(const Vec<T>& a)
     return {value(a.x), value(a.y), value(a.z)};
 }
 
+// The same with more digits than any number system has, for expected values that are computed.
+using Real = long double;
+template <class T>
+Vec<Real> real(const Vec<T>& a)
+{
+    return {value(a.x), value(a.y), value(a.z)};
+}
+inline Vec3 rounded(const Vec<Real>& a)
+{
+    return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
+}
 // The nearest quantity; it must be in range. A `direction` is normalised first, a `vector` is not.
 template <class N>
 struct make {

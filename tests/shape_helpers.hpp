@@ -1,4 +1,5 @@
-// Shapes of a number system from their plain measures, each as its header documents its fields.
+// Shapes of a number system from their plain measures, each as its header documents its fields, and with one
+// interface: hit(), normal() and crossings(), whatever their headers need to be told.
 #pragma once
 
 #include <qray/cone.hpp>
@@ -13,45 +14,117 @@
 
 namespace qray::test {
 
+// A ray that leaves the surface named by tag.
 template <class N>
-Sphere<N> make_sphere(const Vec3& centre, double r, Tag tag = make_tag(0, 0))
+Ray<N> ray_from(const Vec3& origin, const Vec3& along, Tag tag, bool outward)
 {
-    const auto radius = make<N>::length(r);
-    return {make<N>::point(centre), radius, make<N>::inverse(radius), tag};
+    Ray<N> ray = make<N>::ray(origin, along);
+    ray.from = tag;
+    ray.outward = outward;
+    return ray;
+}
+
+// The block scale that a curved surface of this size may have: at most 2^fine size = 32 is well within Length.
+template <class N>
+int32_t fine_for(double size)
+{
+    int32_t fine = 0;
+    if constexpr (N::is_fixed)
+        while (fine < 10 && std::ldexp(size, fine + 1) <= 32)
+            fine++;
+    return fine;
 }
 
 template <class N>
-Disc<N> make_disc(const Vec3& centre, const Vec3& normal, double r, Tag tag = make_tag(0, 0))
-{
-    return {make<N>::point(centre), make<N>::direction(normal), make<N>::length(r), tag};
-}
+struct SphereOf {
+    using Length = typename N::Length;
+    Sphere<N> shape{};
+
+    SphereOf(const Vec3& centre, double r, Tag tag = make_tag(0, 0)) : SphereOf(centre, r, tag, fine_for<N>(r)) {}
+    SphereOf(const Vec3& centre, double r, Tag tag, int32_t fine)
+    {
+        shape.centre = make<N>::point(centre);
+        shape.radius = make<N>::length(std::ldexp(r, fine));
+        shape.inverse_radius = make<N>::inverse(shape.radius);
+        shape.fine = fine;
+        shape.tag = tag;
+    }
+    double radius() const { return std::ldexp(value(shape.radius), -shape.fine); }
+    bool hit(const Ray<N>& ray, Length limit, Length& t) const
+    {
+        Local<N> local{};
+        return intersect(shape, ray, limit, t, local);
+    }
+    Vec3 normal(const Ray<N>& ray) const
+    {
+        Length t{};
+        Local<N> local{};
+        return intersect(shape, ray, N::length_max, t, local) ? value(normal_at(shape, local, ray.direction)) : Vec3{};
+    }
+    int crossings(const Ray<N>& ray, Length distance) const { return qray::crossings(shape, ray, distance); }
+};
+
+template <class N>
+struct DiscOf {
+    using Length = typename N::Length;
+    Disc<N> shape{};
+
+    DiscOf(const Vec3& centre, const Vec3& normal, double r, Tag tag = make_tag(0, 0))
+    {
+        shape.centre = make<N>::point(centre);
+        shape.normal = make<N>::direction(normal);
+        shape.radius = make<N>::length(r);
+        shape.tag = tag;
+    }
+    bool hit(const Ray<N>& ray, Length limit, Length& t) const { return intersect(shape, ray, limit, t); }
+    Vec3 normal(const Ray<N>&) const { return value(normal_at(shape)); }
+    int crossings(const Ray<N>& ray, Length distance) const { return qray::crossings(shape, ray, distance); }
+};
 
 // From base to apex, with a radius at either end.
 template <class N>
-Cone<N> make_cone(const Vec3& base, double base_radius, const Vec3& apex, double apex_radius,
-                  Tag tag = make_tag(0, 0))
-{
+struct ConeOf {
+    using Length = typename N::Length;
     using M = make<N>;
-    const double height = length(apex - base);
-    const Vec3 axis = unit(apex - base);
-    const double growth = (apex_radius - base_radius) / height;
-    const double cosine = 1 / std::sqrt(1 + growth * growth);
-    const Vec3 other = std::fabs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 e1 = unit(cross(other, axis)), e2 = cross(axis, e1);
-    const double bound = std::hypot(height / 2, std::fmax(base_radius, apex_radius));
-    return {M::point((base + apex) * 0.5),
-            M::direction(e1),
-            M::direction(e2),
-            M::direction(axis),
-            M::length(cosine * (base_radius + apex_radius) / 2),
-            M::length(height / 2),
-            M::length(bound * (1 + 1e-6) + 4 * M::length_ulp(bound)),
-            M::unit(cosine),
-            M::unit(growth * cosine),
-            tag};
-}
+    Cone<N> shape{};
 
-// A polygon, or a fan of patches, and the table that holds its corners.
+    ConeOf(const Vec3& base, double base_radius, const Vec3& apex, double apex_radius, Tag tag = make_tag(0, 0))
+    {
+        const double height = length(apex - base);
+        const Vec3 axis = unit(apex - base);
+        const double growth = (apex_radius - base_radius) / height;
+        const double cosine = 1 / std::sqrt(1 + growth * growth);
+        const Vec3 other = std::fabs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+        const Vec3 e1 = unit(cross(other, axis)), e2 = cross(axis, e1);
+        const double bound = std::hypot(height / 2, std::fmax(base_radius, apex_radius));
+        shape.fine = fine_for<N>(bound);
+        const double up = std::ldexp(1, shape.fine);
+        shape.middle = M::point((base + apex) * 0.5);
+        shape.e1 = M::direction(e1);
+        shape.e2 = M::direction(e2);
+        shape.axis = M::direction(axis);
+        shape.rho0 = M::length(cosine * (base_radius + apex_radius) / 2 * up);
+        shape.half = M::length(height / 2 * up);
+        shape.bound = M::length(bound * up * (1 + 1e-6) + 4 * M::length_ulp(bound));
+        shape.cosine = M::unit(cosine);
+        shape.sine = M::unit(growth * cosine);
+        shape.tag = tag;
+    }
+    bool hit(const Ray<N>& ray, Length limit, Length& t) const
+    {
+        Local<N> local{};
+        return intersect(shape, ray, limit, t, local);
+    }
+    Vec3 normal(const Ray<N>& ray) const
+    {
+        Length t{};
+        Local<N> local{};
+        return intersect(shape, ray, N::length_max, t, local) ? value(normal_at(shape, local, ray.direction)) : Vec3{};
+    }
+    int crossings(const Ray<N>& ray, Length distance) const { return qray::crossings(shape, ray, distance); }
+};
+
+// Corners, and the ball that holds them.
 template <class N>
 struct Corners {
     std::vector<Point<N>> at;
@@ -76,41 +149,70 @@ struct Corners {
 };
 
 template <class N>
-struct PolygonOf : Corners<N> {
-    Polygon<N> shape;
+struct PolygonOf {
+    using Length = typename N::Length;
+    Corners<N> corners;
+    Polygon<N> shape{};
 
-    explicit PolygonOf(const std::vector<Vec3>& corners, Tag tag = make_tag(0, 0))
-        : Corners<N>(corners), shape{make<N>::direction(cross(corners[1] - corners[0], corners[2] - corners[1])),
-                                     this->middle, this->bound, 0, static_cast<uint32_t>(corners.size()), tag}
+    explicit PolygonOf(const std::vector<Vec3>& c, Tag tag = make_tag(0, 0)) : corners(c)
     {
+        shape.normal = make<N>::direction(cross(c[1] - c[0], c[2] - c[1]));
+        shape.middle = corners.middle;
+        shape.bound = corners.bound;
+        shape.first = 0;
+        shape.count = static_cast<uint32_t>(c.size());
+        shape.tag = tag;
     }
-    bool hit(const Ray<N>& ray, typename N::Length limit, typename N::Length& t) const
+    bool hit(const Ray<N>& ray, Length limit, Length& t) const
     {
-        return intersect(shape, this->at.data(), ray, limit, t);
+        return intersect(shape, corners.at.data(), ray, limit, t);
+    }
+    Vec3 normal(const Ray<N>&) const { return value(normal_at(shape)); }
+    int crossings(const Ray<N>& ray, Length distance) const
+    {
+        return qray::crossings(shape, corners.at.data(), ray, distance);
     }
 };
 
 // One triangle with a normal at each corner.
 template <class N>
-struct PatchOf : Corners<N> {
+struct PatchOf {
+    using Length = typename N::Length;
+    Corners<N> corners;
     std::vector<Direction<N>> normals;
-    Patch<N> shape;
+    Patch<N> shape{};
 
-    PatchOf(const std::vector<Vec3>& corners, const std::vector<Vec3>& corner_normals, Tag tag = make_tag(0, 0))
-        : Corners<N>(corners), shape{make<N>::direction(cross(corners[1] - corners[0], corners[2] - corners[1])),
-                                     this->middle, this->bound, 0, 1, tag}
+    PatchOf(const std::vector<Vec3>& c, const std::vector<Vec3>& corner_normals, Tag tag = make_tag(0, 0)) : corners(c)
     {
         for (const Vec3& n : corner_normals)
             normals.push_back(make<N>::direction(n));
+        shape.normal = make<N>::direction(cross(c[1] - c[0], c[2] - c[1]));
+        shape.middle = corners.middle;
+        shape.bound = corners.bound;
+        shape.first = 0;
+        shape.second = 1;
+        shape.tag = tag;
     }
-    bool hit(const Ray<N>& ray, typename N::Length limit, typename N::Length& t) const
+    bool hit(const Ray<N>& ray, Length limit, Length& t) const
     {
-        return intersect(shape, this->at.data(), ray, limit, t);
+        return intersect(shape, corners.at.data(), ray, limit, t);
     }
-    Direction<N> normal(const Ray<N>& ray) const
+    Vec3 normal(const Ray<N>&) const { return value(shape.normal); }
+    Vec3 shading(const Ray<N>& ray) const
     {
-        return shading_normal(shape, this->at.data(), normals.data(), ray);
+        return value(shading_normal(shape, corners.at.data(), normals.data(), ray));
+    }
+    int crossings(const Ray<N>& ray, Length distance) const
+    {
+        return qray::crossings(shape, corners.at.data(), ray, distance);
     }
 };
+
+// What every test of a shape says first.
+#define QRAY_SHAPE_TEST                        \
+    using N = TypeParam;                       \
+    using M = make<N>;                         \
+    [[maybe_unused]] const auto limit = N::length_max; \
+    [[maybe_unused]] typename N::Length t{}
 
 } // namespace qray::test
