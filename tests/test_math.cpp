@@ -111,6 +111,50 @@ TEST(Math, InverseRootOfZeroIsThatOfOne) {
     EXPECT_EQ(rsqrt(1).exponent, -32);
 }
 
+void expect_unit_vector(int32_t x, int32_t y, int32_t z) {
+    int32_t u[3] = {};
+    ASSERT_TRUE(unit_vector(x, y, z, u));
+    const long double lx = x, ly = y, lz = z;
+    const long double scale = one / std::sqrt(lx * lx + ly * ly + lz * lz);
+    ASSERT_LE(std::fabs(u[0] - lx * scale), 0.81L) << x << ' ' << y << ' ' << z;
+    ASSERT_LE(std::fabs(u[1] - ly * scale), 0.81L) << x << ' ' << y << ' ' << z;
+    ASSERT_LE(std::fabs(u[2] - lz * scale), 0.81L) << x << ' ' << y << ' ' << z;
+}
+
+TEST(Math, UnitVectorIsWithinItsBound) {
+    std::mt19937_64 random(9);
+    const int32_t most = std::numeric_limits<int32_t>::max();
+    const int32_t least = std::numeric_limits<int32_t>::min();
+    const std::vector<int32_t> ends = {0, 1, -1, 2, -2, 3, -4, most, -most, least, 1 << 30, -(1 << 30)};
+    for (const int32_t x : ends) {
+        for (const int32_t y : ends) {
+            for (const int32_t z : ends) {
+                if (x != 0 || y != 0 || z != 0)
+                    expect_unit_vector(x, y, z);
+            }
+        }
+    }
+    for (int i = 0; i < 300000; i++) {
+        const auto pick = [&] { return static_cast<int32_t>(random()) >> (random() % 32); };
+        expect_unit_vector(pick(), pick(), pick() | 1);
+    }
+}
+
+TEST(Math, UnitVectorsAlongTheAxesAreExact) {
+    for (int32_t length : {1, 2, 3, 12345, 1 << 24, 1 << 30, std::numeric_limits<int32_t>::max()}) {
+        int32_t u[3] = {};
+        ASSERT_TRUE(unit_vector(length, 0, 0, u));
+        EXPECT_EQ(u[0], static_cast<int32_t>(one)) << length;
+        EXPECT_EQ(u[1], 0);
+        ASSERT_TRUE(unit_vector(0, 0, -length, u));
+        EXPECT_EQ(u[2], -static_cast<int32_t>(one)) << length;
+        EXPECT_EQ(u[0], 0);
+    }
+    int32_t untouched[3] = {1, 2, 3};
+    EXPECT_FALSE(unit_vector(0, 0, 0, untouched));
+    EXPECT_EQ(untouched[0] + untouched[1] + untouched[2], 6);
+}
+
 // |mantissa - 2^-exponent / x| <= 1, in integers.
 void expect_reciprocal(uint32_t x) {
     const Scaled r = reciprocal(x);
@@ -225,14 +269,14 @@ TEST(Math, WholePowersAreWithinTheirBound) {
     std::mt19937_64 random(6);
     for (int i = 0; i < 300000; i++) {
         const uint32_t n = static_cast<uint32_t>(any_length(random) % 1000001);
-        ASSERT_LE(error_of_whole(interesting_base(random, n + 1), n), 0x1p-28) << n;
-        ASSERT_LE(error_of_whole(static_cast<uint32_t>(random() % one), n), 0x1p-28) << n;
-        ASSERT_LE(error_of_whole(one - static_cast<uint32_t>(random() % 4096), n), 0x1p-28) << n;
+        ASSERT_LE(error_of_whole(interesting_base(random, n + 1), n), 0x1p-29) << n;
+        ASSERT_LE(error_of_whole(static_cast<uint32_t>(random() % one), n), 0x1p-29) << n;
+        ASSERT_LE(error_of_whole(one - static_cast<uint32_t>(random() % 4096), n), 0x1p-29) << n;
     }
     // Many factors: all bits of n set.
     for (uint32_t n = 1; n <= 0xfffff; n = 2 * n + 1) {
         for (uint32_t i = 0; i < 3000; i++)
-            ASSERT_LE(error_of_whole(interesting_base(random, n), n), 0x1p-28) << n;
+            ASSERT_LE(error_of_whole(interesting_base(random, n), n), 0x1p-29) << n;
     }
 }
 
@@ -264,8 +308,8 @@ TEST(Math, FractionalPowersAreWithinTheirBound) {
         const uint32_t fraction = static_cast<uint32_t>(random() >> (random() % 32 + 32));
         ASSERT_LE(error_of_fraction(static_cast<uint32_t>(random() % one), fraction), 0x1p-29) << fraction;
         ASSERT_LE(error_of_fraction(one >> (random() % 31), fraction), 0x1p-29) << fraction;
-        ASSERT_LE(error_of_fraction(one - static_cast<uint32_t>(any_length(random) % one), uint_max - fraction),
-                  0x1p-29);
+        const uint32_t gap = static_cast<uint32_t>(any_length(random) % one);
+        ASSERT_LE(error_of_fraction(one - gap, uint_max - fraction), 0x1p-29) << gap;
     }
     for (const uint32_t x : {1u, 2u, 3u, one / 2 - 1, one / 2, one / 2 + 1, one - 2, one - 1}) {
         for (const uint32_t fraction : {1u, 2u, 0x80000000u, 0x55555555u, uint_max - 1, uint_max})
@@ -286,7 +330,8 @@ TEST(Math, FractionalPowersInClosedForm) {
 TEST(Math, PowersJoinBothParts) {
     std::mt19937_64 random(8);
     for (int i = 0; i < 200000; i++) {
-        const Exponent e = {static_cast<uint32_t>(any_length(random) % 1000), static_cast<uint32_t>(random())};
+        const Exponent e = {static_cast<uint32_t>(any_length(random) % 1000),
+                            static_cast<uint32_t>(random())};
         const uint32_t x = interesting_base(random, e.whole + 1);
         const long double exact =
             std::pow(static_cast<long double>(x) / one, e.whole + std::ldexp(1.0L * e.fraction, -32));

@@ -1,7 +1,8 @@
 // qray/math.hpp: elementary functions in integer arithmetic.
 //
-// No floating point, no library division, the same bits on every target. All functions are total: what
-// cannot be represented saturates, as each says. The only table is 98 bytes.
+// No floating point, no library division, the same bits on every target. What cannot be represented
+// saturates, as each function says. One table of 98 bytes serves all roots, reciprocals and quotients;
+// pow_fraction has 64 bytes of coefficients.
 #pragma once
 
 #include <stdint.h>
@@ -70,7 +71,7 @@ constexpr int32_t mul_shift_16(int32_t a, uint32_t b)
     return (a >> 16) * static_cast<int32_t>(b) + static_cast<int32_t>(static_cast<uint16_t>(a) * b >> 16);
 }
 
-// 1/sqrt(v / 2^32) in Q1.12 for v in [2^30, 2^32), relative error at most 2^-11.9.
+// 1/sqrt(v / 2^32) in Q1.12 for v in [2^30, 2^32), relative error at most 2^-12.0.
 constexpr uint32_t rsqrt_seed(uint32_t v)
 {
     const uint16_t* entry = rsqrt_table.value + (static_cast<int32_t>(v >> 26) - 16);
@@ -93,10 +94,6 @@ QRAY_SHARED constexpr uint32_t rsqrt_mantissa(uint32_t high, uint32_t low)
     uint32_t mantissa = (y << 19) + static_cast<uint32_t>((mul_shift_16(e, y) + 32) >> 6);
     return mantissa >> 31 != 0 ? mantissa : 0xffffffffu;
 }
-
-} // namespace detail
-
-namespace detail {
 
 // isqrt for x < 2^58.
 QRAY_SHARED constexpr uint32_t isqrt_small(uint64_t x)
@@ -191,19 +188,16 @@ constexpr int32_t scaled_component(int32_t x, uint32_t m, int halve)
 // False, and u untouched, where all are 0.
 QRAY_SHARED constexpr bool unit_vector(int32_t x, int32_t y, int32_t z, int32_t* u)
 {
+    if ((x | y | z) == 0)
+        return false;
     // The magnitudes, those of negative numbers less one.
-    uint32_t bits = static_cast<uint32_t>((x ^ (x >> 31)) | (y ^ (y >> 31)) | (z ^ (z >> 31)));
-    if (bits == 0) {
-        if ((x | y | z) == 0)
-            return false;
-        bits = 1;
-    }
+    const uint32_t bits = static_cast<uint32_t>((x ^ (x >> 31)) | (y ^ (y >> 31)) | (z ^ (z >> 31)) | 1);
     // To magnitudes of at most 2^31, the largest at least 2^30.
     const int up = count_leading_zeros(bits) - 1;
-    x = static_cast<int32_t>(static_cast<uint32_t>(x) << up);
-    y = static_cast<int32_t>(static_cast<uint32_t>(y) << up);
-    z = static_cast<int32_t>(static_cast<uint32_t>(z) << up);
-    const uint64_t square = wide_norm2(x, y, z);
+    u[0] = static_cast<int32_t>(static_cast<uint32_t>(x) << up);
+    u[1] = static_cast<int32_t>(static_cast<uint32_t>(y) << up);
+    u[2] = static_cast<int32_t>(static_cast<uint32_t>(z) << up);
+    const uint64_t square = wide_norm2(u[0], u[1], u[2]);
     uint32_t high = static_cast<uint32_t>(square >> 32);
     uint32_t low = static_cast<uint32_t>(square);
     int halve = 1;
@@ -213,9 +207,14 @@ QRAY_SHARED constexpr bool unit_vector(int32_t x, int32_t y, int32_t z, int32_t*
         halve = 0;
     }
     const uint32_t m = detail::rsqrt_mantissa(high, low);
-    u[0] = detail::scaled_component(x, m, halve);
-    u[1] = detail::scaled_component(y, m, halve);
-    u[2] = detail::scaled_component(z, m, halve);
+    if constexpr (has_wide_multiply) {
+        u[0] = detail::scaled_component(u[0], m, halve);
+        u[1] = detail::scaled_component(u[1], m, halve);
+        u[2] = detail::scaled_component(u[2], m, halve);
+    } else {
+        for (int i = 0; i < 3; i++)
+            u[i] = detail::scaled_component(u[i], m, halve);
+    }
     return true;
 }
 
@@ -301,7 +300,8 @@ struct Exponent {
     uint32_t fraction;
 };
 
-// x^whole for x in [0, 1] as Q2.30, result Q2.30. Absolute error <= 2^-28; 0^0 = 1.
+// x^whole for x in [0, 1] as Q2.30, result Q2.30. 0^0 = 1. Absolute error at most 2^-29
+// (2^-29.4 is the largest seen in 12 million hard cases).
 QRAY_SHARED constexpr uint32_t pow_whole(uint32_t x, uint32_t whole)
 {
     constexpr uint32_t one = uint32_t{1} << 30;
@@ -358,7 +358,7 @@ inline constexpr uint32_t exp2_coefficients[6] = {
 
 } // namespace detail
 
-// x^(fraction / 2^32) for x in [0, 1] as Q2.30, result Q2.30. Absolute error <= 2^-29.
+// x^(fraction / 2^32) for x in [0, 1] as Q2.30, result Q2.30. Absolute error at most 2^-29.
 QRAY_SHARED constexpr uint32_t pow_fraction(uint32_t x, uint32_t fraction)
 {
     constexpr uint32_t one = uint32_t{1} << 30;
@@ -379,7 +379,7 @@ QRAY_SHARED constexpr uint32_t pow_fraction(uint32_t x, uint32_t fraction)
     return (one - (complement >> 2) - ((complement >> 1) & 1)) >> (exponent >> 32);
 }
 
-// x^e for x in [0, 1] as Q2.30, result Q2.30. Absolute error <= 2^-28; x^0 = 1.
+// x^e for x in [0, 1] as Q2.30, result Q2.30. Absolute error at most 2^-28; x^0 = 1.
 constexpr uint32_t pow_unit(uint32_t x, Exponent e)
 {
     uint32_t result = pow_whole(x, e.whole);
