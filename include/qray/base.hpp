@@ -353,4 +353,29 @@ constexpr double sqrt_double(double x)
     return __builtin_bit_cast(double, detail::sqrt_bits<uint64_t, 52>(__builtin_bit_cast(uint64_t, x)));
 }
 
+// Four binary32 numbers, for bounds that are tested together. Nothing that reaches a picture is computed in them.
+typedef float Float4 __attribute__((vector_size(16)));
+typedef int32_t Mask4 __attribute__((vector_size(16)));
+
+QRAY_INLINE Float4 all_four(float x)
+{
+    return Float4{x, x, x, x};
+}
+
+// Bit i tells whether element i of m is set.
+QRAY_INLINE uint32_t mask_bits(Mask4 m)
+{
+#if defined(__SSE2__)
+    return static_cast<uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<Float4>(m)));
+#else
+    return (static_cast<uint32_t>(m[0]) & 1) | (static_cast<uint32_t>(m[1]) & 2) | (static_cast<uint32_t>(m[2]) & 4)
+        | (static_cast<uint32_t>(m[3]) & 8);
+#endif
+}
+
+constexpr uint32_t lowest_bit(uint32_t x)
+{
+    return static_cast<uint32_t>(__builtin_ctz(x));
+}
+
 } // namespace qray

@@ -338,7 +338,7 @@ QRAY_SHARED constexpr uint32_t pow_whole(uint32_t x, uint32_t whole)
 namespace detail {
 
 // c[0] - x (c[1] - x (c[2] - ...)), all in Q0.32; every c is greater than the next.
-constexpr uint32_t alternating_polynomial(const uint32_t* c, int degree, uint32_t x)
+QRAY_SHARED constexpr uint32_t alternating_polynomial(const uint32_t* c, int degree, uint32_t x)
 {
     uint32_t sum = c[degree];
     for (int i = degree - 1; i >= 0; i--)

@@ -22,6 +22,7 @@
 #include "stripes.hpp"
 #include "sun.hpp"
 #include "transmit.hpp"
+#include "tree.hpp"
 #include "wood.hpp"
 
 namespace qray {
@@ -61,6 +62,8 @@ struct Scene {
     [[no_unique_address]] Table<Patch<N>, E.patch> patches;
     [[no_unique_address]] Table<Point<N>, E.polygon || E.patch> vertices;
     [[no_unique_address]] Table<Direction<N>, E.patch> normals;
+
+    [[no_unique_address]] Maybe<Tree, E.tree> tree;
 
     Table<Matte<N>, true> mattes;
     [[no_unique_address]] Table<Highlight<N>, E.highlight> highlights;

@@ -65,12 +65,45 @@ QRAY_INLINE constexpr int crossings_in(const Scene<N, E>& scene, const S& shape,
         return crossings(shape, ray, limit);
 }
 
+// Calls f(shape, kind, index) for the shape of that number.
+template <class N, Effects E, class F>
+QRAY_INLINE constexpr bool with_shape(const Scene<N, E>& scene, ShapeId id, F f)
+{
+    if constexpr (E.sphere)
+        if (id.kind() == Kind::sphere)
+            return f(scene.spheres[id.index()], Kind::sphere, id.index());
+    if constexpr (E.disc)
+        if (id.kind() == Kind::disc)
+            return f(scene.discs[id.index()], Kind::disc, id.index());
+    if constexpr (E.cone)
+        if (id.kind() == Kind::cone)
+            return f(scene.cones[id.index()], Kind::cone, id.index());
+    if constexpr (E.polygon)
+        if (id.kind() == Kind::polygon)
+            return f(scene.polygons[id.index()], Kind::polygon, id.index());
+    if constexpr (E.patch)
+        if (id.kind() == Kind::patch)
+            return f(scene.patches[id.index()], Kind::patch, id.index());
+    return false;
+}
+
+// Calls f(shape, kind, index) for every shape that the ray may meet before limit(), until it returns true.
+template <class N, Effects E, class Limit, class F>
+QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_unused]] const Ray<N>& ray,
+                                              [[maybe_unused]] Limit limit, F f)
+{
+    if constexpr (E.tree)
+        walk(scene.tree.value, ray, limit, [&](ShapeId id) { return with_shape(scene, id, f); });
+    else
+        for_each_shape(scene, f);
+}
+
 template <class N, Effects E>
 constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit)
 {
     hit.t = N::length_max;
     hit.tag = {Tag::none};
-    for_each_shape(scene, [&](const auto& shape, Kind kind, uint32_t index) {
+    for_each_candidate(scene, ray, [&hit] { return hit.t; }, [&](const auto& shape, Kind kind, uint32_t index) {
         typename N::Length t{};
         Local<N> local{};
         if (intersect_in(scene, shape, ray, hit.t, t, local) && hit.after(t, shape.tag)) {
@@ -86,22 +119,73 @@ constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit)
     return !(hit.tag == Tag{Tag::none});
 }
 
-// The share of light that comes through all surfaces strictly between the ray's origin and `distance`.
+// Is any surface strictly between the ray's origin and `distance`?
+template <class N, Effects E>
+constexpr bool light_blocked(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance)
+{
+    bool blocked = false;
+    for_each_candidate(scene, ray, [distance] { return distance; }, [&](const auto& shape, Kind, uint32_t) {
+        blocked = crossings_in(scene, shape, ray, distance) != 0;
+        return blocked;
+    });
+    return blocked;
+}
+
+// The first few surfaces by place, of those a ray crosses.
+struct Veils {
+    static constexpr uint32_t capacity = 8;
+    struct Veil {
+        Tag tag;
+        int times;
+    } veils[capacity];
+    uint32_t count = 0;
+
+    constexpr void add(Veil veil)
+    {
+        if (count == capacity) {
+            if (veil.tag.place() > veils[count - 1].tag.place())
+                return;
+            count--;
+        }
+        uint32_t i = count++;
+        for (; i > 0 && veils[i - 1].tag.place() > veil.tag.place(); i--)
+            veils[i] = veils[i - 1];
+        veils[i] = veil;
+    }
+};
+
+// The share of light that comes through all surfaces strictly between the ray's origin and `distance`: multiplied in the
+// order of their places, so that rounding does not depend on the order in which they are found.
 template <class N, Effects E>
 constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance)
 {
     auto through = N::one;
-    for_each_shape(scene, [&](const auto& shape, Kind, uint32_t) {
-        int n = crossings_in(scene, shape, ray, distance);
-        if constexpr (E.see_through) {
-            for (; n > 0; n--)
-                through = N::unit(through * scene.transmits[shape.tag.material()].amount);
-        } else if (n > 0) {
-            through = N::zero;
-        }
-        return through == N::zero;
-    });
-    return through;
+    const auto amount = [&scene](Tag tag) { return scene.transmits[tag.material()].amount; };
+    bool first = true;
+    uint32_t last = 0;
+    for (;;) {
+        Veils found;
+        bool blocked = false;
+        for_each_candidate(scene, ray, [distance] { return distance; }, [&](const auto& shape, Kind, uint32_t) {
+            if (!first && shape.tag.place() <= last)
+                return false;
+            const int times = crossings_in(scene, shape, ray, distance);
+            if (times != 0) {
+                blocked = amount(shape.tag) == N::zero;
+                found.add({shape.tag, times});
+            }
+            return blocked;
+        });
+        if (blocked)
+            return N::zero;
+        for (uint32_t i = 0; i < found.count; i++)
+            for (int k = 0; k < found.veils[i].times; k++)
+                through = N::unit(through * amount(found.veils[i].tag));
+        if (found.count < Veils::capacity)
+            return through;
+        first = false;
+        last = found.veils[found.count - 1].tag.place();
+    }
 }
 
 template <class N, Effects E>
@@ -220,12 +304,15 @@ constexpr void gather(const Scene<N, E>& scene, const Surface<N>& s, Tag tag, co
     if constexpr (E.shadow) {
         if (scene.shadows.value) {
             count(RayKind::shadow);
-            const auto through = light_through(scene, leaving<N>(s, tag, l), distance);
-            if (through == N::zero)
-                return;
+            const Ray<N> to_light = leaving<N>(s, tag, l);
             if constexpr (E.see_through) {
+                const auto through = light_through(scene, to_light, distance);
+                if (through == N::zero)
+                    return;
                 diffuse = N::unit(diffuse * through);
                 highlight = N::unit(highlight * through);
+            } else if (light_blocked(scene, to_light, distance)) {
+                return;
             }
         }
     }

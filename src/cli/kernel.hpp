@@ -25,7 +25,7 @@ struct Kernel {
 constexpr Effects balls_effects()
 {
     Effects e;
-    e.sphere = e.disc = e.checker = e.light = e.shadow = e.highlight = e.mirror = true;
+    e.sphere = e.disc = e.checker = e.light = e.shadow = e.highlight = e.mirror = e.tree = true;
     return e;
 }
 
@@ -34,7 +34,7 @@ constexpr Effects nff_effects()
 {
     Effects e;
     e.sphere = e.cone = e.polygon = e.light = e.shadow = e.see_through = e.highlight = e.fractional_shine = true;
-    e.mirror = e.transmit = true;
+    e.mirror = e.transmit = e.tree = true;
     e.depth = scene::Settings::max_depth;
     return e;
 }

@@ -2,6 +2,7 @@
 // what it calls for, and computes what the tracer would otherwise compute again and again.
 #pragma once
 
+#include "balls.hpp"
 #include "convert.hpp"
 #include "settings.hpp"
 #include "storage.hpp"
@@ -77,13 +78,14 @@ public:
         lights();
         materials();
         camera();
+        TreeBuilder<N>(s).build();
         effects();
         return true;
     }
 
 private:
     // How far a point may lie from the origin, and the ball of a cone from its middle (see cone.hpp).
-    static constexpr double world = 62, cone_world = 40, sphere_world = 63;
+    static constexpr double world = 62, cone_world = 40, sphere_world = 31.9;
 
     const Description& d;
     const Settings& settings;
@@ -455,6 +457,7 @@ private:
         s.shadows = d.shadows && lit && e.lights();
         e.shadow = s.shadows;
         e.see_through = e.shadow && transmits;
+        e.tree = true;
         e.grid = settings.levels == 0 && settings.grid > 1;
         e.adaptive = settings.levels != 0;
         e.depth = e.transmit ? static_cast<uint8_t>(settings.depth) : 1;

@@ -48,6 +48,11 @@ struct Storage {
     Array<Point<N>, Limits::vertices> vertices;
     Array<Direction<N>, Limits::vertices> normals;
 
+    static constexpr uint32_t shape_limit = Limits::objects + Limits::vertices;
+    Array<ShapeId, shape_limit + 4> shape_ids;
+    Array<BallBlock, shape_limit / 3 + 64> blocks;
+    Tree tree;
+
     Array<Matte<N>, Limits::materials> mattes;
     Array<Highlight<N>, Limits::materials> highlights;
     Array<Mirror<N>, Limits::materials> mirrors;
@@ -83,6 +88,8 @@ struct Storage {
             s.levels.value = levels;
             s.threshold.value = threshold;
         }
+        if constexpr (E.tree)
+            s.tree.value = tree;
         s.spheres = spheres.template table<E.sphere>();
         s.discs = discs.template table<E.disc>();
         s.cones = cones.template table<E.cone>();

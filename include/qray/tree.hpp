@@ -1,0 +1,108 @@
+// A flat tree of bounding balls over all shapes, four to a block: block b of a level bounds what blocks 4b to 4b + 3 of
+// the level below hold, and those of level 0 each bound four shapes. No pointers, no recursion.
+//
+// It only says which shapes a ray may meet: conservatively, in binary32, whatever the number system.
+#pragma once
+
+#include "ray.hpp"
+
+namespace qray {
+
+struct BallBlock {
+    float x[4], y[4], z[4];
+    float radius[4]; // negative: no ball
+};
+
+// A shape's kind and its index in the table of that kind.
+struct ShapeId {
+    uint32_t bits;
+    constexpr Kind kind() const { return static_cast<Kind>(bits >> 29); }
+    constexpr uint32_t index() const { return bits & 0x1fffffff; }
+};
+constexpr ShapeId shape_id(Kind kind, uint32_t index) { return {static_cast<uint32_t>(kind) << 29 | index}; }
+
+struct Tree {
+    static constexpr int max_levels = 12;
+    const BallBlock* blocks;
+    const ShapeId* shapes;        // four for each block of level 0
+    uint32_t first[max_levels];   // block of each level
+    int32_t levels;               // the highest one is a single block
+};
+
+// A ray in binary32.
+class BoundedRay {
+public:
+    template <class N>
+    explicit QRAY_INLINE BoundedRay(const Ray<N>& ray)
+        : ox(all_four(as_float(ray.origin.x))), oy(all_four(as_float(ray.origin.y))),
+          oz(all_four(as_float(ray.origin.z))), dx(all_four(as_float(ray.direction.x))),
+          dy(all_four(as_float(ray.direction.y))), dz(all_four(as_float(ray.direction.z)))
+    {
+    }
+
+    // Which balls of a block the ray may enter before `limit`.
+    QRAY_INLINE uint32_t enters(const BallBlock& b, float limit) const
+    {
+        const Float4 x = load(b.x) - ox, y = load(b.y) - oy, z = load(b.z) - oz, r = load(b.radius);
+        const Float4 along = x * dx + y * dy + z * dz;
+        const Float4 square = x * x + y * y + z * z;
+        // |v|^2 - (v.d)^2 <= r^2. With |v| < 2^7 and 24 bits, each side is wrong by less than 2^-19 |v|^2; the builder
+        // adds to r what the rounded coordinates may be off.
+        const Mask4 near = square * (1.0f - 0x1p-18f) - along * along <= r * r;
+        const Mask4 ahead = along + r >= 0.0f;
+        const Mask4 before = along - r <= limit;
+        return mask_bits(near & ahead & before);
+    }
+
+    template <class L>
+    static QRAY_INLINE float as_float(L v)
+    {
+        if constexpr (requires { v.raw; })
+            return static_cast<float>(v.raw) * (1.0f / static_cast<float>(int64_t{1} << L::frac));
+        else
+            return static_cast<float>(v);
+    }
+
+private:
+    static QRAY_INLINE Float4 load(const float* p) { return Float4{p[0], p[1], p[2], p[3]}; }
+    Float4 ox, oy, oz, dx, dy, dz;
+};
+
+// Calls visit(ShapeId) for every shape whose ball the ray may enter before limit(), until visit returns true. limit() is asked again at
+// every block, as hits come nearer.
+template <class N, class Limit, class Visit>
+QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit visit)
+{
+    const BoundedRay bounded(ray);
+    // A shape may lie a little beyond its rounded limit.
+    const auto reach = [&limit] { return BoundedRay::as_float(limit()) * (1.0f + 0x1p-20f) + 0x1p-16f; };
+    struct Level {
+        uint32_t block, mask;
+    } stack[Tree::max_levels];
+    int level = tree.levels - 1;
+    uint32_t block = 0;
+    uint32_t mask = bounded.enters(tree.blocks[tree.first[level]], reach());
+    for (;;) {
+        if (mask == 0) {
+            level++;
+            if (level == tree.levels)
+                return;
+            block = stack[level].block;
+            mask = stack[level].mask;
+            continue;
+        }
+        const uint32_t child = block * 4 + lowest_bit(mask);
+        mask &= mask - 1;
+        if (level == 0) {
+            if (visit(tree.shapes[child]))
+                return;
+            continue;
+        }
+        stack[level] = {block, mask};
+        level--;
+        block = child;
+        mask = bounded.enters(tree.blocks[tree.first[level] + block], reach());
+    }
+}
+
+} // namespace qray

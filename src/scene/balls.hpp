@@ -1,0 +1,134 @@
+// Builds the tree of bounding balls: shapes in the order of a space-filling curve, four to a block, then blocks four to a block.
+#pragma once
+
+#include <math.h>
+
+#include <algorithm>
+
+#include "storage.hpp"
+
+namespace qray::scene {
+
+// The ball of a shape in double, in the moved and scaled scene.
+struct Ball {
+    double x, y, z, radius;
+};
+
+template <class N>
+class TreeBuilder {
+public:
+    explicit TreeBuilder(Storage<N>& storage) : s(storage) {}
+
+    void build()
+    {
+        const uint32_t count = s.spheres.count + s.discs.count + s.cones.count + s.polygons.count + s.patches.count;
+        s.shape_ids.count = s.blocks.count = 0;
+        add(Kind::sphere, s.spheres.count);
+        add(Kind::disc, s.discs.count);
+        add(Kind::cone, s.cones.count);
+        add(Kind::polygon, s.polygons.count);
+        add(Kind::patch, s.patches.count);
+        // What spans much of the scene stands apart, in front.
+        if (count > 4)
+            std::sort(s.shape_ids.data, s.shape_ids.data + count, [this](ShapeId a, ShapeId b) {
+                const uint64_t ka = key(a), kb = key(b);
+                return ka != kb ? ka < kb : a.bits < b.bits;
+            });
+        s.tree = {s.blocks.data, s.shape_ids.data, {}, 0};
+        uint32_t below = level(count, [this](uint32_t i) { return ball(s.shape_ids.data[i]); });
+        while (below > 1) {
+            const uint32_t first = s.tree.first[s.tree.levels - 1];
+            below = level(below, [this, first](uint32_t i) { return around(s.blocks.data[first + i]); });
+        }
+    }
+
+private:
+    Storage<N>& s;
+
+    void add(Kind kind, uint32_t count)
+    {
+        for (uint32_t i = 0; i < count; i++)
+            s.shape_ids.push() = shape_id(kind, i);
+    }
+
+    template <class L>
+    static double value(L v)
+    {
+        if constexpr (N::is_fixed)
+            return ldexp(v.raw, -L::frac);
+        else
+            return static_cast<double>(v);
+    }
+    static Ball ball_of(const Point<N>& c, double r) { return {value(c.x), value(c.y), value(c.z), r}; }
+
+    Ball ball(ShapeId id) const
+    {
+        const uint32_t i = id.index();
+        switch (id.kind()) {
+        case Kind::sphere: return ball_of(s.spheres.data[i].centre, ldexp(value(s.spheres.data[i].radius), -s.spheres.data[i].fine));
+        case Kind::disc: return ball_of(s.discs.data[i].centre, value(s.discs.data[i].radius));
+        case Kind::cone: return ball_of(s.cones.data[i].middle, ldexp(value(s.cones.data[i].bound), -s.cones.data[i].fine));
+        case Kind::polygon: return ball_of(s.polygons.data[i].middle, value(s.polygons.data[i].bound));
+        case Kind::patch: break;
+        }
+        return ball_of(s.patches.data[i].middle, value(s.patches.data[i].bound));
+    }
+
+    // Morton order of the centre, 16 bits an axis over +-64; the large ones first.
+    uint64_t key(ShapeId id) const
+    {
+        const Ball b = ball(id);
+        if (b.radius > 16)
+            return 0;
+        const auto spread = [](double v) {
+            uint64_t x = static_cast<uint64_t>(fmin(65535, fmax(0, (v + 64) * 512)));
+            x = (x | x << 16) & 0x0000ff0000ff;
+            x = (x | x << 8) & 0x00f00f00f00f;
+            x = (x | x << 4) & 0x0c30c30c30c3;
+            return (x | x << 2) & 0x249249249249;
+        };
+        return 1 + (spread(b.x) | spread(b.y) << 1 | spread(b.z) << 2);
+    }
+
+    static Ball around(const BallBlock& b)
+    {
+        double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+        const float* c[3] = {b.x, b.y, b.z};
+        for (int i = 0; i < 4; i++)
+            for (int k = 0; k < 3 && b.radius[i] >= 0; k++) {
+                low[k] = fmin(low[k], static_cast<double>(c[k][i] - b.radius[i]));
+                high[k] = fmax(high[k], static_cast<double>(c[k][i] + b.radius[i]));
+            }
+        Ball ball{(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2, 0};
+        for (int i = 0; i < 4; i++)
+            if (b.radius[i] >= 0) {
+                const double x = static_cast<double>(b.x[i]) - ball.x, y = static_cast<double>(b.y[i]) - ball.y,
+                             z = static_cast<double>(b.z[i]) - ball.z;
+                ball.radius = fmax(ball.radius, sqrt(x * x + y * y + z * z) + static_cast<double>(b.radius[i]));
+            }
+        return ball;
+    }
+
+    // One level over `count` balls; returns its number of blocks.
+    template <class BallOf>
+    uint32_t level(uint32_t count, BallOf of)
+    {
+        s.tree.first[s.tree.levels++] = s.blocks.count;
+        const uint32_t blocks = count == 0 ? 1 : (count + 3) / 4;
+        for (uint32_t b = 0; b < blocks; b++) {
+            BallBlock& block = s.blocks.push();
+            for (uint32_t i = 0; i < 4; i++) {
+                const bool present = b * 4 + i < count;
+                const Ball ball = present ? of(b * 4 + i) : Ball{0, 0, 0, 0};
+                block.x[i] = static_cast<float>(ball.x);
+                block.y[i] = static_cast<float>(ball.y);
+                block.z[i] = static_cast<float>(ball.z);
+                // Wider by what coordinates below 2^7 may be off in 24 bits, here and in a ray's origin.
+                block.radius[i] = present ? static_cast<float>(ball.radius * (1 + 1e-6) + 1e-4) : -1e9f;
+            }
+        }
+        return blocks;
+    }
+};
+
+} // namespace qray::scene
