@@ -17,7 +17,7 @@ struct Frame {
 };
 
 struct Box {
-    Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+    Vec3d low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     void add(const Vec3d& p, const Vec3d& extent = {})
     {
         low = {fmin(low.x, p.x - extent.x), fmin(low.y, p.y - extent.y), fmin(low.z, p.z - extent.z)};
