@@ -211,7 +211,7 @@ struct PatchOf {
 // What every test of a shape says first.
 #define QRAY_SHAPE_TEST                        \
     using N = TypeParam;                       \
-    using M = make<N>;                         \
+    using M [[maybe_unused]] = make<N>;        \
     [[maybe_unused]] const auto limit = N::length_max; \
     [[maybe_unused]] typename N::Length t{}
 
