@@ -92,7 +92,7 @@ private:
 
     static Ball around(const BallBlock& b)
     {
-        double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+        double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
         const float* c[3] = {b.x, b.y, b.z};
         for (int i = 0; i < 4; i++)
             for (int k = 0; k < 3 && b.radius[i] >= 0; k++) {
