@@ -50,37 +50,37 @@ struct Scene {
     Rgb<N> background;
     int32_t exposure; // colours are stored divided by 2^exposure
     [[no_unique_address]] Maybe<uint8_t, E.spawns()> max_depth; // at most E.depth
-    [[no_unique_address]] Maybe<typename N::Unit, E.spawns()> cutoff;
-    [[no_unique_address]] Maybe<bool, E.shadow> shadows;
-    [[no_unique_address]] Maybe<uint8_t, E.adaptive> levels;
-    [[no_unique_address]] Maybe<typename N::Unit, E.adaptive> threshold;
+    [[no_unique_address]] Maybe<typename N::Unit, E.spawns()> cutoff{};
+    [[no_unique_address]] Maybe<bool, E.shadow> shadows{};
+    [[no_unique_address]] Maybe<uint8_t, E.adaptive> levels{};
+    [[no_unique_address]] Maybe<typename N::Unit, E.adaptive> threshold{};
 
-    [[no_unique_address]] Table<Sphere<N>, E.sphere> spheres;
-    [[no_unique_address]] Table<Disc<N>, E.disc> discs;
-    [[no_unique_address]] Table<Cone<N>, E.cone> cones;
-    [[no_unique_address]] Table<Polygon<N>, E.polygon> polygons;
-    [[no_unique_address]] Table<Patch<N>, E.patch> patches;
-    [[no_unique_address]] Table<Point<N>, E.polygon || E.patch> vertices;
-    [[no_unique_address]] Table<Direction<N>, E.patch> normals;
+    [[no_unique_address]] Table<Sphere<N>, E.sphere> spheres{};
+    [[no_unique_address]] Table<Disc<N>, E.disc> discs{};
+    [[no_unique_address]] Table<Cone<N>, E.cone> cones{};
+    [[no_unique_address]] Table<Polygon<N>, E.polygon> polygons{};
+    [[no_unique_address]] Table<Patch<N>, E.patch> patches{};
+    [[no_unique_address]] Table<Point<N>, E.polygon || E.patch> vertices{};
+    [[no_unique_address]] Table<Direction<N>, E.patch> normals{};
 
-    [[no_unique_address]] Maybe<Tree, E.tree> tree;
+    [[no_unique_address]] Maybe<Tree, E.tree> tree{};
 
     Table<Matte<N>, true> mattes;
-    [[no_unique_address]] Table<Highlight<N>, E.highlight> highlights;
-    [[no_unique_address]] Table<Mirror<N>, E.mirror> mirrors;
-    [[no_unique_address]] Table<Transmit<N>, E.transmit || E.see_through> transmits;
-    [[no_unique_address]] Table<TextureRef, E.texture()> textures;
-    [[no_unique_address]] Table<Checker<N>, E.checker> checkers;
-    [[no_unique_address]] Table<Stripes<N>, E.stripes> stripes;
-    [[no_unique_address]] Table<Gradient<N>, E.gradient> gradients;
-    [[no_unique_address]] Table<Rings<N>, E.rings> rings;
-    [[no_unique_address]] Table<Noise<N>, E.noise> noises;
-    [[no_unique_address]] Table<Marble<N>, E.marble> marbles;
-    [[no_unique_address]] Table<Wood<N>, E.wood> woods;
-    [[no_unique_address]] Table<Brick<N>, E.brick> bricks;
+    [[no_unique_address]] Table<Highlight<N>, E.highlight> highlights{};
+    [[no_unique_address]] Table<Mirror<N>, E.mirror> mirrors{};
+    [[no_unique_address]] Table<Transmit<N>, E.transmit || E.see_through> transmits{};
+    [[no_unique_address]] Table<TextureRef, E.texture()> textures{};
+    [[no_unique_address]] Table<Checker<N>, E.checker> checkers{};
+    [[no_unique_address]] Table<Stripes<N>, E.stripes> stripes{};
+    [[no_unique_address]] Table<Gradient<N>, E.gradient> gradients{};
+    [[no_unique_address]] Table<Rings<N>, E.rings> rings{};
+    [[no_unique_address]] Table<Noise<N>, E.noise> noises{};
+    [[no_unique_address]] Table<Marble<N>, E.marble> marbles{};
+    [[no_unique_address]] Table<Wood<N>, E.wood> woods{};
+    [[no_unique_address]] Table<Brick<N>, E.brick> bricks{};
 
-    [[no_unique_address]] Table<Light<N>, E.light> lights;
-    [[no_unique_address]] Table<Sun<N>, E.sun> suns;
+    [[no_unique_address]] Table<Light<N>, E.light> lights{};
+    [[no_unique_address]] Table<Sun<N>, E.sun> suns{};
 };
 
 } // namespace qray
