@@ -1,0 +1,231 @@
+#include "options.hpp"
+
+#include "../scene/description.hpp"
+#include "../scene/reader.hpp"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+namespace qray::cli {
+
+namespace {
+
+constexpr const char* version = "1.0";
+
+struct Option {
+    const char* name;
+    const char* value; // its name, or null where the option has none
+    unsigned commands; // that have it
+    const char* help;
+    const char* expected; // of its value
+    bool (*take)(Options&, const char* value);
+};
+
+bool whole(std::string_view text, uint32_t low, uint32_t high, uint32_t& value)
+{
+    uint32_t read = 0;
+    if (scene::read_count(text, read) != scene::NumberError::none || read < low || read > high)
+        return false;
+    value = read;
+    return true;
+}
+
+bool share(std::string_view text, double& value)
+{
+    double read = 0;
+    if (scene::read_number(text, read) != scene::NumberError::none || !(read >= 0 && read <= 1))
+        return false;
+    value = read;
+    return true;
+}
+
+bool take_number(Options& o, const char* value)
+{
+    for (size_t i = 0; i < sizeof number_names / sizeof *number_names; i++)
+        if (strcmp(value, number_names[i]) == 0) {
+            o.number = static_cast<Number>(i);
+            return true;
+        }
+    return false;
+}
+
+bool take_size(Options& o, const char* value)
+{
+    const char* x = strchr(value, 'x');
+    return x != nullptr && whole({value, static_cast<size_t>(x - value)}, 1, scene::Limits::resolution, o.settings.width)
+        && whole(x + 1, 1, scene::Limits::resolution, o.settings.height);
+}
+
+bool take_samples(Options& o, const char* value)
+{
+    constexpr uint32_t most = scene::Settings::max_grid;
+    uint32_t samples = 0, n = 1;
+    if (!whole(value, 1, most * most, samples))
+        return false;
+    while (n * n < samples)
+        n++;
+    o.settings.grid = n;
+    o.has_samples = true;
+    return n * n == samples;
+}
+
+bool take_adaptive(Options& o, const char* value)
+{
+    const char* comma = strchr(value, ',');
+    const size_t length = comma != nullptr ? static_cast<size_t>(comma - value) : strlen(value);
+    return whole({value, length}, 1, 6, o.settings.levels)
+        && (comma == nullptr || share(comma + 1, o.settings.threshold));
+}
+
+constexpr unsigned draw = static_cast<unsigned>(Command::draw);
+constexpr unsigned compile = static_cast<unsigned>(Command::compile);
+constexpr unsigned plan = static_cast<unsigned>(Command::plan);
+constexpr unsigned all = draw | compile | plan;
+
+constexpr Option table[] = {
+    {"-o", "FILE", draw, "the picture; '-' is standard output (default: SCENE.ppm in this folder)", "a name",
+     [](Options& o, const char* v) { return *(o.output = v) != 0; }},
+    {"-o", "FILE", compile, "the header; '-' is standard output (default: SCENE.hpp in this folder)", "a name",
+     [](Options& o, const char* v) { return *(o.output = v) != 0; }},
+    {"-s", "WxH", all, "size in pixels (default: the scene's own)", "WIDTHxHEIGHT, each from 1 to 32768", take_size},
+    {"-n", "NUMBER", all, "number system: q32, float or double (default: q32)", "q32, float or double", take_number},
+    {"-r", "N", all, "samples a pixel: 1, 4, 9, 16 and so on (default: 1)", "a square number from 1 to 4096",
+     take_samples},
+    {"-a", "LEVELS[,T]", all, "adaptive sampling: 1 to 6 levels, threshold 0 to 1 (default: 0.0625)",
+     "LEVELS or LEVELS,THRESHOLD, from 1 to 6 and from 0 to 1", take_adaptive},
+    {"-d", "N", all, "depth of mirrored and refracted rays (default: 5)", "a whole number from 1 to 64",
+     [](Options& o, const char* v) { return whole(v, 1, scene::Settings::max_depth, o.settings.depth); }},
+    {"--cutoff", "W", all, "weight below which rays are not traced (default: 0.0014)", "a number from 0 to 1",
+     [](Options& o, const char* v) { return share(v, o.settings.cutoff); }},
+    {"-j", "N", draw, "threads (default: one for each processor)", "a whole number from 1 to 256",
+     [](Options& o, const char* v) { return whole(v, 1, max_threads, o.threads); }},
+    {"--stats", nullptr, draw, "say what was in the scene, and what drawing it took", nullptr,
+     [](Options& o, const char*) { return o.stats = true; }},
+    {"-q", nullptr, all, "no progress, no warnings", nullptr, [](Options& o, const char*) { return o.quiet = true; }},
+};
+static_assert(scene::Limits::resolution == 32768 && scene::Settings::max_grid == 64 && scene::Settings::max_depth == 64
+              && max_threads == 256); // as the texts say
+
+bool has(const Option& option, Command command)
+{
+    return (option.commands & static_cast<unsigned>(command)) != 0;
+}
+
+void print_help(Command command)
+{
+    switch (command) {
+    case Command::draw:
+        puts("usage: qray [options] SCENE\n"
+             "Draws a scene ('-': standard input) as a binary PPM picture.\n");
+        break;
+    case Command::compile:
+        puts("usage: qray compile [options] SCENE\n"
+             "Turns a scene ('-': standard input) into a C++ header, to be drawn without an operating system.\n");
+        break;
+    case Command::plan:
+        puts("usage: qray plan [options] SCENE\n"
+             "Chooses the settings for a scene on a board.\n");
+        break;
+    }
+    for (const Option& o : table)
+        if (has(o, command))
+            printf("  %-8s %-11s %s\n", o.name, o.value != nullptr ? o.value : "", o.help);
+    puts("  -h, --help           this\n"
+         "  --version");
+    switch (command) {
+    case Command::draw:
+        puts("\nexample: qray scenes/showcase.nff -s 640x480 -r 4 -o picture.ppm\n"
+             "also: qray compile -h, qray plan -h\n"
+             "exit status: 0; 1: bad scene, or the picture cannot be written; 2: bad options");
+        break;
+    case Command::compile:
+        puts("\nexample: qray compile scenes/showcase.nff -s 64x48 -n q32 -o showcase.hpp");
+        break;
+    case Command::plan:
+        break;
+    }
+}
+
+const char* command_name(Command command)
+{
+    return command == Command::draw ? "qray" : command == Command::compile ? "qray compile" : "qray plan";
+}
+
+// "-s 64x48", "-s64x48", "--cutoff 0.1", "--cutoff=0.1"; `value` is null where none is in the argument itself.
+const Option* find(Command command, const char* argument, const char*& value)
+{
+    for (const Option& o : table) {
+        const size_t length = strlen(o.name);
+        if (!has(o, command) || strncmp(argument, o.name, length) != 0)
+            continue;
+        const char* rest = argument + length;
+        const bool word = o.name[1] == '-';
+        if (*rest == 0)
+            value = nullptr;
+        else if (o.value != nullptr && (!word || *rest == '='))
+            value = rest + word;
+        else
+            continue;
+        return &o;
+    }
+    return nullptr;
+}
+
+} // namespace
+
+int bad_options(const char* format, ...)
+{
+    char text[600];
+    va_list values;
+    va_start(values, format);
+    vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    fprintf(stderr, "qray: %s\n", text);
+    return 2;
+}
+
+int read_options(Command command, int argc, char** argv, Options& options)
+{
+    bool only_scenes = false;
+    for (int i = 1; i < argc; i++) {
+        const char* argument = argv[i];
+        if (only_scenes || argument[0] != '-' || argument[1] == 0) {
+            if (options.scene != nullptr)
+                return bad_options("one scene at a time; '%s' is a second", scene::ShownName(argument).text);
+            options.scene = argument;
+            continue;
+        }
+        if (strcmp(argument, "--") == 0) {
+            only_scenes = true;
+            continue;
+        }
+        if (strcmp(argument, "-h") == 0 || strcmp(argument, "--help") == 0) {
+            print_help(command);
+            return 0;
+        }
+        if (strcmp(argument, "--version") == 0) {
+            printf("qray %s\n", version);
+            return 0;
+        }
+        const char* value = nullptr;
+        const Option* option = find(command, argument, value);
+        if (option == nullptr)
+            return bad_options("unknown option '%s'; '%s -h' lists them", scene::ShownName(argument).text,
+                               command_name(command));
+        if (option->value != nullptr && value == nullptr) {
+            if (i + 1 == argc)
+                return bad_options("'%s' is followed by nothing; expected %s", option->name, option->expected);
+            value = argv[++i];
+        }
+        if (!option->take(options, value))
+            return bad_options("'%s %s': expected %s", option->name, scene::ShownName(value).text, option->expected);
+    }
+    if (options.has_samples && options.settings.levels != 0)
+        return bad_options("'-a' and '-r' exclude each other: adaptive sampling chooses the samples of a pixel");
+    if (options.scene == nullptr)
+        return bad_options("no scene; '%s -h' shows how to give one", command_name(command));
+    return go_on;
+}
+
+} // namespace qray::cli

@@ -1,0 +1,34 @@
+// The command line of qray, qray compile and qray plan: one table of options for all three.
+#pragma once
+
+#include "../scene/settings.hpp"
+
+namespace qray::cli {
+
+// The number systems, in the order of number_names and of renderers.
+enum class Number : uint8_t { q32, single_float, double_float };
+constexpr const char* number_names[] = {"q32", "float", "double"};
+
+enum class Command : uint8_t { draw = 1, compile = 2, plan = 4 };
+
+struct Options {
+    const char* scene = nullptr;  // "-": standard input
+    const char* output = nullptr; // "-": standard output; null: the command's own default
+    Number number = Number::q32;
+    scene::Settings settings;
+    bool has_samples = false; // -r was given, so that -a must not be
+    uint32_t threads = 0;     // 0: one for each processor
+    bool stats = false, quiet = false;
+};
+
+constexpr uint32_t max_threads = 256;
+
+// Reads argv[1] and on. Returns `go_on`, or the status to exit with, having printed what is to be said: 0 after
+// help and version, 2 and one line on standard error where something is wrong.
+constexpr int go_on = -1;
+int read_options(Command command, int argc, char** argv, Options& options);
+
+// One line on standard error, "qray: ..."; returns 2.
+[[gnu::format(printf, 1, 2)]] int bad_options(const char* format, ...);
+
+} // namespace qray::cli
