@@ -1,0 +1,81 @@
+#include "input.hpp"
+
+#include "../scene/reader.hpp"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace qray::cli {
+
+namespace {
+
+char text[scene::Limits::text + 1]; // one more, to see that a file is too long
+struct stat scene_file;
+
+bool failed(scene::Error& error, const char* path, const char* what)
+{
+    snprintf(error.text, sizeof error.text, "%s: cannot %s: %s", scene::ShownName(path).text, what, strerror(errno));
+    return false;
+}
+
+// Bytes read, or -1 and errno.
+ptrdiff_t read_all(int file)
+{
+    size_t size = 0;
+    while (size < sizeof text) {
+        const ssize_t got = read(file, text + size, sizeof text - size);
+        if (got == 0)
+            break;
+        if (got < 0 && errno != EINTR)
+            return -1;
+        size += got > 0 ? static_cast<size_t>(got) : 0;
+    }
+    return static_cast<ptrdiff_t>(size);
+}
+
+} // namespace
+
+bool read_scene(const char* path, scene::Description& description, scene::Error& error)
+{
+    const bool standard = strcmp(path, "-") == 0;
+    const int file = standard ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+        return failed(error, path, "open");
+    if (fstat(file, &scene_file) == 0 && S_ISDIR(scene_file.st_mode)) {
+        errno = EISDIR;
+        return failed(error, path, "open");
+    }
+    const ptrdiff_t size = read_all(file);
+    if (size < 0)
+        return failed(error, path, "read");
+    if (!standard)
+        close(file);
+    if (size > ptrdiff_t{scene::Limits::text}) {
+        snprintf(error.text, sizeof error.text, "%s:1:1: a text of more than %u bytes (limit 'text')",
+                 scene::ShownName(path).text, scene::Limits::text);
+        return false;
+    }
+    return scene::parse(path, text, static_cast<size_t>(size), description, error);
+}
+
+bool is_scene_file(const char* path)
+{
+    struct stat other;
+    return stat(path, &other) == 0 && S_ISREG(other.st_mode) && other.st_dev == scene_file.st_dev
+        && other.st_ino == scene_file.st_ino;
+}
+
+bool default_output(const char* scene, const char* suffix, char* out, size_t size)
+{
+    const char* slash = strrchr(scene, '/');
+    const char* name = slash != nullptr ? slash + 1 : scene;
+    const char* dot = strrchr(name, '.');
+    const size_t length = dot != nullptr && dot != name ? static_cast<size_t>(dot - name) : strlen(name);
+    return length < size && snprintf(out, size, "%.*s%s", static_cast<int>(length), name, suffix) < static_cast<int>(size);
+}
+
+} // namespace qray::cli

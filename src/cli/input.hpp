@@ -1,0 +1,17 @@
+// The scene's text, from a file or from standard input.
+#pragma once
+
+#include "../scene/description.hpp"
+
+namespace qray::cli {
+
+// Reads and parses the scene at `path` ("-": standard input). False, and one line in `error`, where there is none.
+bool read_scene(const char* path, scene::Description& description, scene::Error& error);
+
+// Is `path` the very file that read_scene() read?
+bool is_scene_file(const char* path);
+
+// "folder/name.nff" and ".ppm" give "name.ppm". False where that does not fit.
+bool default_output(const char* scene, const char* suffix, char* out, size_t size);
+
+} // namespace qray::cli

@@ -1,0 +1,121 @@
+#include "output.hpp"
+
+#include "../scene/reader.hpp"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace qray::cli {
+
+namespace {
+
+char target[PATH_MAX];
+char temporary[PATH_MAX]; // empty while there is none
+
+void interrupted(int which)
+{
+    if (temporary[0] != 0)
+        unlink(temporary);
+    signal(which, SIG_DFL);
+    raise(which);
+}
+
+// A name of this process in the target's folder. False where it does not fit.
+bool name_temporary()
+{
+    const char* slash = strrchr(target, '/');
+    const int folder = slash != nullptr ? static_cast<int>(slash + 1 - target) : 0;
+    const int length = snprintf(temporary, sizeof temporary, "%.*s.qray-%ld.part", folder, target,
+                                static_cast<long>(getpid()));
+    return length < static_cast<int>(sizeof temporary);
+}
+
+} // namespace
+
+bool Output::fail(const char* what, int error)
+{
+    failed_ = what;
+    error_ = error;
+    return false;
+}
+
+void Output::report() const
+{
+    fprintf(stderr, "%s: cannot %s: %s\n", scene::ShownName(name_).text, failed_, strerror(error_));
+}
+
+Output::~Output()
+{
+    if (temporary[0] != 0)
+        unlink(temporary);
+    temporary[0] = 0;
+}
+
+bool Output::open(const char* name)
+{
+    name_ = name;
+    signal(SIGPIPE, SIG_IGN); // write() tells
+    if (strcmp(name, "-") == 0) {
+        file_ = STDOUT_FILENO;
+        return true;
+    }
+    struct stat old;
+    const bool exists = stat(name, &old) == 0;
+    if (exists && !S_ISREG(old.st_mode)) {
+        file_ = ::open(name, O_WRONLY | O_CLOEXEC);
+        return file_ >= 0 || fail("open", errno);
+    }
+    // Behind a link, the file itself is replaced; and one that must not be written to is not.
+    if (exists && (realpath(name, target) == nullptr || access(target, W_OK) != 0))
+        return fail("open", errno);
+    if (!exists && snprintf(target, sizeof target, "%s", name) >= static_cast<int>(sizeof target))
+        return fail("open", ENAMETOOLONG);
+    if (!name_temporary()) {
+        temporary[0] = 0;
+        return fail("open", ENAMETOOLONG);
+    }
+    for (const int which : {SIGINT, SIGTERM, SIGHUP})
+        signal(which, interrupted);
+    unlink(temporary); // left by an earlier process of that number
+    file_ = ::open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ < 0) {
+        const int error = errno;
+        temporary[0] = 0;
+        return fail("open", error);
+    }
+    return !exists || fchmod(file_, old.st_mode & 07777) == 0 || fail("open", errno);
+}
+
+bool Output::write(const void* bytes, size_t size)
+{
+    const char* from = static_cast<const char*>(bytes);
+    while (size != 0) {
+        const ssize_t put = ::write(file_, from, size);
+        if (put < 0 && errno != EINTR)
+            return fail("write", errno);
+        from += put > 0 ? put : 0;
+        size -= put > 0 ? static_cast<size_t>(put) : 0;
+    }
+    return true;
+}
+
+bool Output::commit()
+{
+    if (close(file_) != 0)
+        return fail("write", errno);
+    if (temporary[0] == 0)
+        return true;
+    if (rename(temporary, target) != 0)
+        return fail("write", errno);
+    temporary[0] = 0;
+    return true;
+}
+
+} // namespace qray::cli

@@ -1,0 +1,32 @@
+// A file that appears whole or not at all: written under another name in its folder, and renamed at the end.
+#pragma once
+
+#include <stddef.h>
+
+namespace qray::cli {
+
+// One at a time. Where a function returns false, report() says why, in one line on standard error. What is not
+// committed is removed at the end, also where the program is interrupted.
+class Output {
+public:
+    Output() = default;
+    Output(const Output&) = delete;
+    Output& operator=(const Output&) = delete;
+    ~Output();
+
+    // `name` must outlive this. "-" is standard output; what is no regular file is written as it stands.
+    bool open(const char* name);
+    bool write(const void* bytes, size_t size);
+    bool commit();
+    void report() const;
+
+private:
+    bool fail(const char* what, int error);
+
+    const char* name_ = nullptr;
+    const char* failed_ = "";
+    int error_ = 0;
+    int file_ = -1;
+};
+
+} // namespace qray::cli
