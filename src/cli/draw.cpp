@@ -1,0 +1,145 @@
+#include "draw.hpp"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include <atomic>
+
+namespace qray::cli {
+
+namespace {
+
+// Rows wait here until all above them are written: one of the widest picture for each thread, or many.
+uint8_t pool[size_t{max_threads} * scene::Limits::resolution * 3];
+constexpr uint32_t max_slots = 4096;
+
+uint32_t least(uint32_t a, uint32_t b) { return a < b ? a : b; }
+uint32_t most(uint32_t a, uint32_t b) { return a > b ? a : b; }
+
+// A block of rows has a number from the top, and the slot of that number modulo the slots. It may be drawn once the
+// block before in its slot is written, which the next blocks to be written never wait for.
+class Drawing {
+public:
+    Drawing(const Renderer& with, const Built& picture, uint32_t threads, Output& to, Progress& shown)
+        : renderer(with), height(picture.height), stride(picture.width * 3), output(to), progress(shown)
+    {
+        // Small blocks, so that no thread waits long for another at the end.
+        const uint32_t room = static_cast<uint32_t>(sizeof pool / stride);
+        block_rows = least(most(height / (32 * threads), 1), least(64, most(room / (2 * threads), 1)));
+        blocks = (height + block_rows - 1) / block_rows;
+        slots = least(room / block_rows, max_slots);
+    }
+
+    // What each thread does.
+    void work()
+    {
+        RayCounts own;
+        for (;;) {
+            const uint32_t block = next.fetch_add(1, std::memory_order_relaxed);
+            if (block >= blocks || !wait_for_slot(block))
+                break;
+            const uint32_t first = block * block_rows;
+            renderer.rows(first, least(first + block_rows, height), slot(block), own);
+            finish(block);
+        }
+        pthread_mutex_lock(&mutex);
+        for (int i = 0; i < 4; i++)
+            counts.rays[i] += own.rays[i];
+        pthread_mutex_unlock(&mutex);
+    }
+
+    uint32_t block_count() const { return blocks; }
+    bool whole() const { return !failed; }
+    RayCounts counts;
+
+private:
+    uint8_t* slot(uint32_t block) const { return pool + size_t{block % slots} * block_rows * stride; }
+
+    bool wait_for_slot(uint32_t block)
+    {
+        pthread_mutex_lock(&mutex);
+        while (block - written >= slots && !failed)
+            pthread_cond_wait(&slot_is_free, &mutex);
+        const bool go = !failed;
+        pthread_mutex_unlock(&mutex);
+        return go;
+    }
+
+    // One thread at a time writes all that is ready; the others go on drawing.
+    void finish(uint32_t block)
+    {
+        pthread_mutex_lock(&mutex);
+        ready[block % slots] = true;
+        if (!writing) {
+            writing = true;
+            while (!failed && written < blocks && ready[written % slots]) {
+                pthread_mutex_unlock(&mutex);
+                const uint32_t first = written * block_rows, rows = least(block_rows, height - first);
+                const bool good = output.write(slot(written), size_t{rows} * stride);
+                progress.update(first + rows, height);
+                pthread_mutex_lock(&mutex);
+                ready[written % slots] = false;
+                written++;
+                failed = !good;
+                pthread_cond_broadcast(&slot_is_free);
+            }
+            writing = false;
+        }
+        pthread_mutex_unlock(&mutex);
+    }
+
+    const Renderer& renderer;
+    const uint32_t height, stride;
+    Output& output;
+    Progress& progress;
+    uint32_t block_rows, blocks, slots;
+    std::atomic<uint32_t> next{0};
+    pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER; // for all below, but that `written` is the writer's to read
+    pthread_cond_t slot_is_free = PTHREAD_COND_INITIALIZER;
+    uint32_t written = 0;
+    bool writing = false, failed = false;
+    bool ready[max_slots] = {};
+};
+
+void* work(void* drawing)
+{
+    static_cast<Drawing*>(drawing)->work();
+    return nullptr;
+}
+
+} // namespace
+
+uint32_t thread_count(uint32_t asked)
+{
+    if (asked != 0)
+        return asked;
+    cpu_set_t set;
+    const int n = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+    return least(most(static_cast<uint32_t>(n), 1), max_threads);
+}
+
+bool draw_picture(const Renderer& renderer, const Built& picture, uint32_t threads, Output& output,
+                  Progress& progress, RayCounts& counts)
+{
+    char head[32];
+    const int length = snprintf(head, sizeof head, "P6\n%u %u\n255\n", picture.width, picture.height);
+    if (!output.write(head, static_cast<size_t>(length)))
+        return false;
+    Drawing drawing(renderer, picture, threads, output, progress);
+    pthread_t others[max_threads];
+    uint32_t started = 0;
+    // Where no thread can be had, fewer do.
+    while (started + 1 < least(threads, drawing.block_count())
+           && pthread_create(&others[started], nullptr, work, &drawing) == 0)
+        started++;
+    drawing.work();
+    for (uint32_t i = 0; i < started; i++)
+        pthread_join(others[i], nullptr);
+    for (int i = 0; i < 4; i++)
+        counts.rays[i] += drawing.counts.rays[i];
+    return drawing.whole();
+}
+
+} // namespace qray::cli

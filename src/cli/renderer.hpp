@@ -1,0 +1,47 @@
+// A number system as the command sees it: it builds a scene into static storage of its own, then draws rows.
+#pragma once
+
+#include "kernel.hpp"
+#include "options.hpp"
+
+namespace qray::cli {
+
+// What build() made of the scene.
+struct Built {
+    uint32_t width, height;
+    Effects effects;
+    uint32_t vanished; // objects smaller than the number system's resolution
+    const char* kernel;
+};
+
+struct Renderer {
+    // False, and a reason without a place, where the scene does not fit the number system.
+    bool (*build)(const scene::Description&, const scene::Settings&, Built&, scene::Error&);
+    // As Kernel::rows, of the scene that was built last; by any number of threads.
+    void (*rows)(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts);
+};
+
+extern const Renderer q32_renderer, float_renderer, double_renderer;
+inline const Renderer* const renderers[] = {&q32_renderer, &float_renderer, &double_renderer};
+
+template <class N>
+struct RendererOf {
+    static inline scene::Storage<N> storage;
+
+    static bool build(const scene::Description& description, const scene::Settings& settings, Built& built,
+                      scene::Error& error)
+    {
+        if (!scene::Builder<N>(description, settings, storage).build(error))
+            return false;
+        built = {storage.camera.width, storage.camera.height, storage.effects, storage.vanished,
+                 Kernel<N>::name(storage)};
+        return true;
+    }
+    static void rows(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts)
+    {
+        Kernel<N>::rows(storage, first, last, rgb, counts);
+    }
+    static constexpr Renderer renderer{build, rows};
+};
+
+} // namespace qray::cli

@@ -1,0 +1,75 @@
+#include "stats.hpp"
+
+#include "../scene/effect_names.hpp"
+#include "../scene/reader.hpp"
+
+#include <inttypes.h>
+#include <stdio.h>
+
+namespace qray::cli {
+
+namespace {
+
+void print_objects(const scene::Description& d)
+{
+    uint32_t spheres = 0, cones = 0, polygons = 0, patches = 0, planes = 0, discs = 0, suns = 0;
+    for (uint32_t i = 0; i < d.object_count; i++)
+        switch (d.objects[i].shape) {
+        case scene::Shape::sphere: spheres++; break;
+        case scene::Shape::cone: cones++; break;
+        case scene::Shape::polygon: polygons++; break;
+        case scene::Shape::patch: patches++; break;
+        case scene::Shape::plane: planes++; break;
+        case scene::Shape::disc: discs++; break;
+        }
+    for (uint32_t i = 0; i < d.light_count; i++)
+        suns += d.lights[i].sun;
+    const struct {
+        const char* name;
+        uint32_t count;
+    } lines[] = {{"objects", d.object_count}, {"spheres", spheres},     {"cones", cones},
+                 {"polygons", polygons},      {"patches", patches},     {"planes", planes},
+                 {"discs", discs},            {"vertices", d.vertex_count}, {"materials", d.fill_count},
+                 {"lights", d.light_count - suns}, {"suns", suns},      {"dropped", d.dropped}};
+    for (const auto& line : lines)
+        fprintf(stderr, "%s: %" PRIu32 "\n", line.name, line.count);
+}
+
+} // namespace
+
+void print_stats(const Options& options, const scene::Description& description, const Built& built,
+                 uint32_t threads, const RayCounts& counts, const Seconds& seconds)
+{
+    const scene::Settings& settings = options.settings;
+    fprintf(stderr, "scene: %s\n", scene::ShownName(options.scene).text);
+    if (description.comment[0] != 0)
+        fprintf(stderr, "title: %s\n", description.comment);
+    print_objects(description);
+    fprintf(stderr, "vanished: %" PRIu32 "\n", built.vanished);
+
+    fputs("effects:", stderr);
+    for (const scene::EffectName& e : scene::effect_names)
+        if (built.effects.*e.effect)
+            fprintf(stderr, " %s", e.name);
+    fprintf(stderr, "\nnumber: %s\nkernel: %s\n", number_names[static_cast<int>(options.number)], built.kernel);
+
+    fprintf(stderr, "width: %" PRIu32 "\nheight: %" PRIu32 "\n", built.width, built.height);
+    if (settings.levels != 0)
+        fprintf(stderr, "levels: %" PRIu32 "\nthreshold: %g\n", settings.levels, settings.threshold);
+    else
+        fprintf(stderr, "samples: %" PRIu32 "\n", settings.grid * settings.grid);
+    fprintf(stderr, "depth: %" PRIu32 "\ncutoff: %g\nthreads: %" PRIu32 "\n", settings.depth, settings.cutoff,
+            threads);
+
+    uint64_t rays = 0;
+    for (int i = 0; i < 4; i++) {
+        constexpr const char* kinds[] = {"camera", "shadow", "mirrored", "refracted"};
+        fprintf(stderr, "%s_rays: %" PRIu64 "\n", kinds[i], counts.rays[i]);
+        rays += counts.rays[i];
+    }
+    fprintf(stderr, "rays: %" PRIu64 "\nrays/second: %.0f\nreading_seconds: %.4f\nseconds: %.4f\n", rays,
+            static_cast<double>(rays) / (seconds.drawing > 1e-9 ? seconds.drawing : 1e-9), seconds.reading,
+            seconds.drawing);
+}
+
+} // namespace qray::cli
