@@ -49,7 +49,7 @@ struct Scene {
     Camera<N> camera;
     Rgb<N> background;
     int32_t exposure; // colours are stored divided by 2^exposure
-    [[no_unique_address]] Maybe<uint8_t, E.spawns()> max_depth; // at most E.depth
+    [[no_unique_address]] Maybe<uint8_t, E.spawns()> max_depth{}; // at most E.depth
     [[no_unique_address]] Maybe<typename N::Unit, E.spawns()> cutoff{};
     [[no_unique_address]] Maybe<bool, E.shadow> shadows{};
     [[no_unique_address]] Maybe<uint8_t, E.adaptive> levels{};
