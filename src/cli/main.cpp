@@ -1,8 +1,7 @@
 // qray: draws a scene, or hands over to one of its other commands.
-#include "../scene/reader.hpp"
 #include "compile.hpp"
 #include "draw.hpp"
-#include "input.hpp"
+#include "load.hpp"
 #include "plan.hpp"
 #include "stats.hpp"
 
@@ -13,15 +12,6 @@
 namespace qray::cli {
 
 namespace {
-
-scene::Description description;
-
-void warn(const char* scene, uint32_t objects, const char* what)
-{
-    if (objects != 0)
-        fprintf(stderr, "%s: warning: %u object%s %s\n", scene::ShownName(scene).text, objects,
-                objects == 1 ? "" : "s", what);
-}
 
 bool draw(const Renderer& renderer, const Built& built, uint32_t threads, bool quiet, Output& output,
           RayCounts& counts)
@@ -37,36 +27,18 @@ int draw_main(int argc, char** argv)
     if (status != go_on)
         return status;
 
-    char own_name[260];
-    const char* out = options.output;
-    if (out == nullptr && strcmp(options.scene, "-") == 0)
-        out = "-";
-    else if (out == nullptr && default_output(options.scene, ".ppm", own_name, sizeof own_name))
-        out = own_name;
+    const char* out = output_name(options, ".ppm");
     if (out == nullptr)
-        return bad_options("'%s' is too long a name to make the picture's from; give '-o FILE'",
-                           scene::ShownName(options.scene).text);
+        return 2;
     if (strcmp(out, "-") == 0 && isatty(STDOUT_FILENO))
         return bad_options("the picture would go to the terminal; give '-o FILE'");
 
     const double begin = options.stats ? now() : 0;
-    scene::Error error;
     Built built{};
     const Renderer& renderer = *renderers[static_cast<int>(options.number)];
-    if (!read_scene(options.scene, description, error)) {
-        fprintf(stderr, "%s\n", error.text);
-        return 1;
-    }
-    if (is_scene_file(out))
-        return bad_options("'%s' is the scene itself; give another name with '-o FILE'", scene::ShownName(out).text);
-    if (!renderer.build(description, options.settings, built, error)) {
-        fprintf(stderr, "%s: %s\n", scene::ShownName(options.scene).text, error.text);
-        return 1;
-    }
-    if (!options.quiet) {
-        warn(options.scene, description.dropped, "without extent, left out");
-        warn(options.scene, built.vanished, "too small for the number system, left out");
-    }
+    const int loaded = load(options, out, built);
+    if (loaded != go_on)
+        return loaded;
 
     Output output;
     const uint32_t threads = thread_count(options.threads);
@@ -77,7 +49,7 @@ int draw_main(int argc, char** argv)
         return 1;
     }
     if (options.stats) {
-        print_stats(options, description, built, threads, counts, {start - begin, now() - start});
+        print_stats(options, description(), built, threads, counts, {start - begin, now() - start});
     }
     return 0;
 }

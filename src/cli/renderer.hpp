@@ -1,6 +1,7 @@
 // A number system as the command sees it: it builds a scene into static storage of its own, then draws rows.
 #pragma once
 
+#include "../scene/emitter.hpp"
 #include "kernel.hpp"
 #include "options.hpp"
 
@@ -19,6 +20,8 @@ struct Renderer {
     bool (*build)(const scene::Description&, const scene::Settings&, Built&, scene::Error&);
     // As Kernel::rows, of the scene that was built last; by any number of threads.
     void (*rows)(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts);
+    // That scene as a C++ header; see Emitter.
+    void (*emit)(scene::Source& out, const char* title, const char* origin);
 };
 
 extern const Renderer q32_renderer, float_renderer, double_renderer;
@@ -41,7 +44,11 @@ struct RendererOf {
     {
         Kernel<N>::rows(storage, first, last, rgb, counts);
     }
-    static constexpr Renderer renderer{build, rows};
+    static void emit(scene::Source& out, const char* title, const char* origin)
+    {
+        scene::Emitter<N>(storage, out).emit(title, origin);
+    }
+    static constexpr Renderer renderer{build, rows, emit};
 };
 
 } // namespace qray::cli

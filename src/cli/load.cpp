@@ -1,0 +1,62 @@
+#include "load.hpp"
+
+#include "../scene/reader.hpp"
+#include "input.hpp"
+
+#include <stdio.h>
+#include <string.h>
+
+namespace qray::cli {
+
+namespace {
+
+scene::Description loaded;
+
+void warn(const char* scene, uint32_t objects, const char* what)
+{
+    if (objects != 0)
+        fprintf(stderr, "%s: warning: %u object%s %s\n", scene::ShownName(scene).text, objects,
+                objects == 1 ? "" : "s", what);
+}
+
+} // namespace
+
+const char* output_name(const Options& options, const char* suffix)
+{
+    static char own[260];
+    if (options.output != nullptr)
+        return options.output;
+    if (strcmp(options.scene, "-") == 0)
+        return "-";
+    if (default_output(options.scene, suffix, own, sizeof own))
+        return own;
+    bad_options("'%s' is too long a name to make another from; give '-o FILE'", scene::ShownName(options.scene).text);
+    return nullptr;
+}
+
+int load(const Options& options, const char* out, Built& built)
+{
+    scene::Error error;
+    if (!read_scene(options.scene, loaded, error)) {
+        fprintf(stderr, "%s\n", error.text);
+        return 1;
+    }
+    if (is_scene_file(out))
+        return bad_options("'%s' is the scene itself; give another name with '-o FILE'", scene::ShownName(out).text);
+    if (!renderers[static_cast<int>(options.number)]->build(loaded, options.settings, built, error)) {
+        fprintf(stderr, "%s: %s\n", scene::ShownName(options.scene).text, error.text);
+        return 1;
+    }
+    if (!options.quiet) {
+        warn(options.scene, loaded.dropped, "without extent, left out");
+        warn(options.scene, built.vanished, "too small for the number system, left out");
+    }
+    return go_on;
+}
+
+const scene::Description& description()
+{
+    return loaded;
+}
+
+} // namespace qray::cli
