@@ -1,0 +1,48 @@
+// Texture lattices of a number system, and where a point lies in them, in long double.
+#pragma once
+
+#include "number_helpers.hpp"
+
+#include "../src/scene/convert.hpp"
+
+namespace qray::test {
+
+// Where a texture lies: p = (q / scale + origin) / size, as the builder moves and scales a scene.
+struct Placing {
+    double size = 1;
+    Vec3 origin{0, 0, 0};
+    double scale = 1;
+};
+
+template <class N>
+LatticeAxis<N> make_axis(const Placing& at, const Vec3& along, double offset, bool wraps)
+{
+    const double k = 1 / at.size;
+    return scene::Convert<N>::axis({along.x * k, along.y * k, along.z * k}, {at.origin.x, at.origin.y, at.origin.z},
+                                   at.scale, offset, wraps);
+}
+template <class N>
+Lattice<N> make_lattice(const Placing& at, double offset)
+{
+    return {make_axis<N>(at, {1, 0, 0}, offset, true), make_axis<N>(at, {0, 1, 0}, offset, true),
+            make_axis<N>(at, {0, 0, 1}, offset, true)};
+}
+template <class N>
+Vec<Real> texture_point(const Placing& at, const Point<N>& q)
+{
+    return (real(q) * (1 / Real(at.scale)) + real(at.origin)) * (1 / Real(at.size));
+}
+
+// Distance to the nearest integer.
+inline double from_integer(Real p)
+{
+    return static_cast<double>(std::fabs(p - std::round(p)));
+}
+inline bool is_odd(Real cell)
+{
+    return std::fmod(std::fabs(cell), Real(2)) == 1;
+}
+
+constexpr Real texture_epsilon = Real(1) / 1024;
+
+} // namespace qray::test
