@@ -10,13 +10,12 @@ struct Mirror {
     typename N::Unit amount;
 };
 
-// d - 2 (d.n) n. A reflection keeps length: no rounding but the last.
+// d - 2 (n.d) n. A reflection keeps length: nothing is divided.
 template <class N>
-QRAY_INLINE constexpr Direction<N> mirrored(const Direction<N>& d, const Direction<N>& n)
+QRAY_INLINE constexpr Direction<N> mirrored(const Direction<N>& d, const Direction<N>& n, typename N::Unit n_d)
 {
-    const auto k = N::unit(dot<N>(d, n));
-    const auto once = scaled<N>(k, n);
-    return d - once - once;
+    const auto twice = n_d + n_d;
+    return d - scaled<N>(twice, n);
 }
 
 } // namespace qray

@@ -256,7 +256,11 @@ struct FixedSystem {
 
     // How far a new ray starts from the surface it leaves: 4 ulp along the geometric normal. (In floating point the
     // error of a hit on a flat surface, which its rounded normal dominates, is the larger.)
-    QRAY_INLINE static constexpr Length leave(Unit g, bool) { return {(g.raw + (1 << (UnitFrac - 3))) >> (UnitFrac - 2)}; }
+    QRAY_INLINE static constexpr Length step_off(Length q, Unit g, bool outward, bool)
+    {
+        const int32_t step = (g.raw + (1 << (UnitFrac - 3))) >> (UnitFrac - 2);
+        return {outward ? q.raw + step : q.raw - step};
+    }
 
     // A hit within this of a light is a hit at the light.
     static constexpr Length light_clearance{16};
@@ -382,7 +386,11 @@ struct FloatSystem {
         constexpr F limit = sizeof(F) == 4 ? F(1e-5) : F(1e-9);
         return c < limit && c > -limit;
     }
-    QRAY_INLINE static constexpr F leave(F g, bool flat) { return g * ((flat ? F(32) : F(8)) * epsilon); }
+    QRAY_INLINE static constexpr F step_off(F q, F g, bool outward, bool flat)
+    {
+        const F step = (flat ? F(32) : F(8)) * epsilon;
+        return q + g * (outward ? step : -step);
+    }
     static constexpr F light_clearance = F(2048) * epsilon;
 
     QRAY_INLINE static constexpr F power_whole(F x, Shine e)

@@ -80,6 +80,8 @@ struct Surface {
     Point<N> point;
     Direction<N> geometric;
     Direction<N> normal;
+    typename N::Unit n_d; // normal . d of the ray that sees it, <= 0
+    bool turned;          // the normal was turned
     bool flat; // a disc, a polygon or a triangle
 };
 

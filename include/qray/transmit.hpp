@@ -15,10 +15,10 @@ struct Transmit {
 // With n turned against d: e = eta (d - (d.n) n), refracted = e - sqrt(1 - |e|^2) n. That is IMAGE's formula with
 // the cancellation at steep angles taken out. False where |e| > 1: total internal reflection.
 template <class N>
-constexpr bool refracted(const Direction<N>& d, const Direction<N>& n, typename N::Eta eta, Direction<N>& out)
+constexpr bool refracted(const Direction<N>& d, const Direction<N>& n, typename N::Unit n_d, typename N::Eta eta,
+                         Direction<N>& out)
 {
-    const auto along_n = N::unit(dot<N>(d, n));
-    const Direction<N> across = d - scaled<N>(along_n, n);
+    const Direction<N> across = d - scaled<N>(n_d, n);
     const Direction<N> e{N::bent(eta, across.x), N::bent(eta, across.y), N::bent(eta, across.z)};
     const auto k = N::one * N::one - dot<N>(e, e);
     if (k < typename N::Cosine{})

@@ -1,0 +1,115 @@
+// Which shapes a ray may meet, and the nearest that it does.
+#pragma once
+
+#include "scene.hpp"
+
+namespace qray {
+
+// Calls f(shape, kind, index) for every shape.
+template <class N, Effects E, class F>
+QRAY_INLINE constexpr void for_each_shape(const Scene<N, E>& scene, F f)
+{
+    if constexpr (E.sphere)
+        for (uint32_t i = 0; i < scene.spheres.count; i++)
+            if (f(scene.spheres[i], Kind::sphere, i))
+                return;
+    if constexpr (E.disc)
+        for (uint32_t i = 0; i < scene.discs.count; i++)
+            if (f(scene.discs[i], Kind::disc, i))
+                return;
+    if constexpr (E.cone)
+        for (uint32_t i = 0; i < scene.cones.count; i++)
+            if (f(scene.cones[i], Kind::cone, i))
+                return;
+    if constexpr (E.polygon)
+        for (uint32_t i = 0; i < scene.polygons.count; i++)
+            if (f(scene.polygons[i], Kind::polygon, i))
+                return;
+    if constexpr (E.patch)
+        for (uint32_t i = 0; i < scene.patches.count; i++)
+            if (f(scene.patches[i], Kind::patch, i))
+                return;
+}
+
+template <class S>
+concept HasCorners = requires(const S& s) { s.first; };
+template <class S>
+concept IsCurved = requires(const S& s) { s.fine; };
+
+template <class N, Effects E, class S>
+QRAY_INLINE constexpr bool intersect_in(const Scene<N, E>& scene, const S& shape, const Ray<N>& ray,
+                                        typename N::Length limit, typename N::Length& t,
+                                        [[maybe_unused]] Local<N>& local)
+{
+    if constexpr (HasCorners<S>)
+        return intersect(shape, scene.vertices.data, ray, limit, t);
+    else if constexpr (IsCurved<S>)
+        return intersect(shape, ray, limit, t, local);
+    else
+        return intersect(shape, ray, limit, t);
+}
+template <class N, Effects E, class S>
+QRAY_INLINE constexpr int crossings_in(const Scene<N, E>& scene, const S& shape, const Ray<N>& ray,
+                                       typename N::Length limit)
+{
+    if constexpr (HasCorners<S>)
+        return crossings(shape, scene.vertices.data, ray, limit);
+    else
+        return crossings(shape, ray, limit);
+}
+
+// Calls f(shape, kind, index) for the shape of that number.
+template <class N, Effects E, class F>
+QRAY_INLINE constexpr bool with_shape(const Scene<N, E>& scene, ShapeId id, F f)
+{
+    if constexpr (E.sphere)
+        if (id.kind() == Kind::sphere)
+            return f(scene.spheres[id.index()], Kind::sphere, id.index());
+    if constexpr (E.disc)
+        if (id.kind() == Kind::disc)
+            return f(scene.discs[id.index()], Kind::disc, id.index());
+    if constexpr (E.cone)
+        if (id.kind() == Kind::cone)
+            return f(scene.cones[id.index()], Kind::cone, id.index());
+    if constexpr (E.polygon)
+        if (id.kind() == Kind::polygon)
+            return f(scene.polygons[id.index()], Kind::polygon, id.index());
+    if constexpr (E.patch)
+        if (id.kind() == Kind::patch)
+            return f(scene.patches[id.index()], Kind::patch, id.index());
+    return false;
+}
+
+// Calls f(shape, kind, index) for every shape that the ray may meet before limit(), until it returns true.
+template <class N, Effects E, class Limit, class F>
+QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_unused]] const Ray<N>& ray,
+                                              [[maybe_unused]] Limit limit, F f)
+{
+    if constexpr (E.tree)
+        walk(scene.tree.value, ray, limit, [&](ShapeId id) { return with_shape(scene, id, f); });
+    else
+        for_each_shape(scene, f);
+}
+
+template <class N, Effects E>
+QRAY_INLINE constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit)
+{
+    hit.t = N::length_max;
+    hit.tag = {Tag::none};
+    for_each_candidate(scene, ray, [&hit] { return hit.t; }, [&](const auto& shape, Kind kind, uint32_t index) {
+        typename N::Length t{};
+        Local<N> local{};
+        if (intersect_in(scene, shape, ray, hit.t, t, local) && hit.after(t, shape.tag)) {
+            hit.t = t;
+            hit.tag = shape.tag;
+            hit.kind = kind;
+            hit.index = index;
+            if constexpr (IsCurved<decltype(shape)>)
+                hit.local = local;
+        }
+        return false;
+    });
+    return !(hit.tag == Tag{Tag::none});
+}
+
+} // namespace qray

@@ -1,0 +1,20 @@
+// Shadow rays among opaque surfaces: the first one in the way ends the search.
+#pragma once
+
+#include "nearest.hpp"
+
+namespace qray {
+
+// Is any surface strictly between the ray's origin and `distance`?
+template <class N, Effects E>
+QRAY_INLINE constexpr bool light_blocked(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance)
+{
+    bool blocked = false;
+    for_each_candidate(scene, ray, [distance] { return distance; }, [&](const auto& shape, Kind, uint32_t) {
+        blocked = crossings_in(scene, shape, ray, distance) != 0;
+        return blocked;
+    });
+    return blocked;
+}
+
+} // namespace qray
