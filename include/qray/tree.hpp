@@ -26,7 +26,8 @@ struct Tree {
     const BallBlock* blocks;
     const ShapeId* shapes;        // four for each block of level 0
     uint32_t first[max_levels];   // block of each level
-    int32_t levels;               // the highest one is a single block
+    int32_t levels;
+    uint32_t top;                 // blocks of the highest level: few
 };
 
 // A ray in binary32.
@@ -79,29 +80,32 @@ QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit vi
     struct Level {
         uint32_t block, mask;
     } stack[Tree::max_levels];
-    int level = tree.levels - 1;
-    uint32_t block = 0;
-    uint32_t mask = bounded.enters(tree.blocks[tree.first[level]], reach());
-    for (;;) {
-        if (mask == 0) {
-            level++;
-            if (level == tree.levels)
-                return;
-            block = stack[level].block;
-            mask = stack[level].mask;
-            continue;
+    const int highest = tree.levels - 1;
+    for (uint32_t top = 0; top < tree.top; top++) {
+        int level = highest;
+        uint32_t block = top;
+        uint32_t mask = bounded.enters(tree.blocks[tree.first[level] + block], reach());
+        for (;;) {
+            while (mask == 0) {
+                if (level == highest)
+                    goto next;
+                level++;
+                block = stack[level].block;
+                mask = stack[level].mask;
+            }
+            const uint32_t child = block * 4 + lowest_bit(mask);
+            mask &= mask - 1;
+            if (level == 0) {
+                if (visit(tree.shapes[child]))
+                    return;
+                continue;
+            }
+            stack[level] = {block, mask};
+            level--;
+            block = child;
+            mask = bounded.enters(tree.blocks[tree.first[level] + block], reach());
         }
-        const uint32_t child = block * 4 + lowest_bit(mask);
-        mask &= mask - 1;
-        if (level == 0) {
-            if (visit(tree.shapes[child]))
-                return;
-            continue;
-        }
-        stack[level] = {block, mask};
-        level--;
-        block = child;
-        mask = bounded.enters(tree.blocks[tree.first[level] + block], reach());
+    next:;
     }
 }
 

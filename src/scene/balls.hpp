@@ -34,12 +34,13 @@ public:
                 const uint64_t ka = key(a), kb = key(b);
                 return ka != kb ? ka < kb : a.bits < b.bits;
             });
-        s.tree = {s.blocks.data, s.shape_ids.data, {}, 0};
+        s.tree = {s.blocks.data, s.shape_ids.data, {}, 0, 0};
         uint32_t below = level(count, [this](uint32_t i) { return ball(s.shape_ids.data[i]); });
-        while (below > 1) {
+        while (below > 3) {
             const uint32_t first = s.tree.first[s.tree.levels - 1];
             below = level(below, [this, first](uint32_t i) { return around(s.blocks.data[first + i]); });
         }
+        s.tree.top = below;
     }
 
 private:
