@@ -84,13 +84,35 @@ struct LatticeAxis<N> {
     constexpr F bounded(const Point<N>& q) const { return along(q) + offset; }
     static constexpr Cell<N> split(F p)
     {
-        constexpr F limit = F(int64_t{1} << 62);
-        if (!(p < limit && p > -limit)) // no fraction left at such a distance
-            return {0, F(0)};
-        int64_t whole = static_cast<int64_t>(p);
+        if constexpr (sizeof(F) == 4) {
+            // Conversions to 64 bits would link arithmetic in double precision on small cores.
+            constexpr F limit = F(uint32_t{1} << 31);
+            if (!(p < limit && p > -limit))
+                return {whole_index(__builtin_bit_cast(uint32_t, p)), F(0)};
+            return split<int32_t>(p);
+        } else {
+            constexpr F limit = F(int64_t{1} << 62);
+            if (!(p < limit && p > -limit)) // no fraction left at such a distance
+                return {0, F(0)};
+            return split<int64_t>(p);
+        }
+    }
+
+private:
+    template <class Whole>
+    static constexpr Cell<N> split(F p)
+    {
+        Whole whole = static_cast<Whole>(p);
         if (static_cast<F>(whole) > p)
             whole--;
         return {static_cast<uint32_t>(whole), p - static_cast<F>(whole)};
+    }
+    // Of binary32 beyond 2^31, modulo 2^32.
+    static constexpr uint32_t whole_index(uint32_t bits)
+    {
+        const uint32_t shift = (bits >> 23 & 0xff) - 150; // at least 8
+        const uint32_t size = shift < 32 ? ((bits & 0x7fffff) | 0x800000) << shift : 0;
+        return bits >> 31 ? 0 - size : size;
     }
 };
 

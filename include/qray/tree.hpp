@@ -41,18 +41,19 @@ public:
     {
     }
 
-    // Which balls of a block the ray may enter before `limit`.
+    // Which balls of a block the ray may enter.
+    QRAY_INLINE uint32_t enters(const BallBlock& b) const
+    {
+        const Float4 x = load(b.x) - ox, y = load(b.y) - oy, z = load(b.z) - oz, r = load(b.radius);
+        const Float4 along = x * dx + y * dy + z * dz;
+        return mask_bits(meets(x, y, z, r, along));
+    }
+    // Which it may enter before `limit`.
     QRAY_INLINE uint32_t enters(const BallBlock& b, float limit) const
     {
         const Float4 x = load(b.x) - ox, y = load(b.y) - oy, z = load(b.z) - oz, r = load(b.radius);
         const Float4 along = x * dx + y * dy + z * dz;
-        const Float4 square = x * x + y * y + z * z;
-        // |v|^2 - (v.d)^2 <= r^2. With |v| < 2^7 and 24 bits, each side is wrong by less than 2^-19 |v|^2; the builder
-        // adds to r what the rounded coordinates may be off.
-        const Mask4 near = square * (1.0f - 0x1p-18f) - along * along <= r * r;
-        const Mask4 ahead = along + r >= 0.0f;
-        const Mask4 before = along - r <= limit;
-        return mask_bits(near & ahead & before);
+        return mask_bits(meets(x, y, z, r, along) & (along - r <= limit));
     }
 
     template <class L>
@@ -65,8 +66,67 @@ public:
     }
 
 private:
+    // |v|^2 - (v.d)^2 <= r^2 and v.d >= -r. With |v| < 2^7 and 24 bits, each side of the first is wrong by less than
+    // 2^-19 |v|^2; the builder adds to r what the rounded coordinates may be off.
+    QRAY_INLINE static Mask4 meets(Float4 x, Float4 y, Float4 z, Float4 r, Float4 along)
+    {
+        const Float4 square = x * x + y * y + z * z;
+        return (square * (1.0f - 0x1p-18f) - along * along <= r * r) & (along >= -r);
+    }
     static QRAY_INLINE Float4 load(const float* p) { return Float4{p[0], p[1], p[2], p[3]}; }
     Float4 ox, oy, oz, dx, dy, dz;
+};
+
+// Goes through the tree and stops at each block of level 0 that holds shapes that the ray may meet.
+class Walk {
+public:
+    template <class N>
+    QRAY_INLINE Walk(const Tree& over, const Ray<N>& ray) : tree(over), bounded(ray), level(over.levels), top(0), mask(0)
+    {
+    }
+
+    // The next block, of those that the ray may enter before `limit`: its shapes, as bits of the result from `base`
+    // on. 0 at the end.
+    uint32_t next(float limit, uint32_t& base)
+    {
+        // A shape may lie a little beyond its rounded limit.
+        limit = limit * (1.0f + 0x1p-20f) + 0x1p-16f;
+        for (;;) {
+            while (mask == 0) {
+                if (level >= tree.levels - 1) {
+                    if (top == tree.top)
+                        return 0;
+                    level = tree.levels - 1;
+                    block = top++;
+                    mask = bounded.enters(tree.blocks[tree.first[level] + block], limit);
+                } else {
+                    level++;
+                    block = stack[level].block;
+                    mask = stack[level].mask;
+                }
+            }
+            if (level == 0) {
+                base = block * 4;
+                const uint32_t found = mask;
+                mask = 0;
+                return found;
+            }
+            const uint32_t child = block * 4 + lowest_bit(mask);
+            stack[level] = {block, mask & (mask - 1)};
+            level--;
+            block = child;
+            mask = bounded.enters(tree.blocks[tree.first[level] + block], limit);
+        }
+    }
+
+private:
+    const Tree& tree;
+    BoundedRay bounded;
+    int level;
+    uint32_t top, block, mask;
+    struct {
+        uint32_t block, mask;
+    } stack[Tree::max_levels];
 };
 
 // Calls visit(ShapeId) for every shape whose ball the ray may enter before limit(), until visit returns true. limit() is asked again at
@@ -74,39 +134,22 @@ private:
 template <class N, class Limit, class Visit>
 QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit visit)
 {
-    const BoundedRay bounded(ray);
-    // A shape may lie a little beyond its rounded limit.
-    const auto reach = [&limit] { return BoundedRay::as_float(limit()) * (1.0f + 0x1p-20f) + 0x1p-16f; };
-    struct Level {
-        uint32_t block, mask;
-    } stack[Tree::max_levels];
-    const int highest = tree.levels - 1;
-    for (uint32_t top = 0; top < tree.top; top++) {
-        int level = highest;
-        uint32_t block = top;
-        uint32_t mask = bounded.enters(tree.blocks[tree.first[level] + block], reach());
-        for (;;) {
-            while (mask == 0) {
-                if (level == highest)
-                    goto next;
-                level++;
-                block = stack[level].block;
-                mask = stack[level].mask;
-            }
-            const uint32_t child = block * 4 + lowest_bit(mask);
-            mask &= mask - 1;
-            if (level == 0) {
-                if (visit(tree.shapes[child]))
-                    return;
-                continue;
-            }
-            stack[level] = {block, mask};
-            level--;
-            block = child;
-            mask = bounded.enters(tree.blocks[tree.first[level] + block], reach());
-        }
-    next:;
+    if (tree.levels == 1) { // a dozen shapes at most: all at once
+        const BoundedRay bounded(ray);
+        uint32_t mask = bounded.enters(tree.blocks[0]);
+        for (uint32_t b = 1; b < tree.top; b++)
+            mask |= bounded.enters(tree.blocks[b]) << (4 * b);
+        for (; mask != 0; mask &= mask - 1)
+            if (visit(tree.shapes[lowest_bit(mask)]))
+                return;
+        return;
     }
+    Walk steps(tree, ray);
+    uint32_t base = 0;
+    while (uint32_t mask = steps.next(BoundedRay::as_float(limit()), base))
+        for (; mask != 0; mask &= mask - 1)
+            if (visit(tree.shapes[base + lowest_bit(mask)]))
+                return;
 }
 
 } // namespace qray
