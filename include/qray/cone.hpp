@@ -27,12 +27,6 @@ struct Cone {
     Tag tag;
 };
 
-template <class N>
-QRAY_INLINE constexpr typename N::Length magnitude(typename N::Length v)
-{
-    return v < N::length_zero ? -v : v;
-}
-
 // The ray's meetings with the frustum, t > 0: how many (0, 1 or 2), the nearer in t[0].
 template <class N>
 constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length limit, typename N::Length (&t)[2],
@@ -94,13 +88,13 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
         t[i] = valid[i] ? b + N::coarse(tau[i], s.fine) : N::length_zero;
     }
     if (leaving == Leaves::inward) {
-        // One root is the origin itself: the one nearer to 0, whatever rounding made of it.
-        if (!valid[0] || !valid[1])
+        // Inside between the roots where A > 0, and to its end where not; one root is the origin itself.
+        if (!(a > typename N::Cosine{}))
             return 0;
-        const int self = magnitude<N>(t[0]) <= magnitude<N>(t[1]) ? 0 : 1;
-        valid[self] = false;
-        if (!(t[1 - self] > N::length_zero) && a > typename N::Cosine{})
-            t[1 - self] = N::ulp;
+        const int end = q > typename N::Moment{} ? 0 : 1;
+        valid[1 - end] = false;
+        if (!(t[end] > N::length_zero))
+            t[end] = N::ulp;
     }
     for (int i = 0; i < 2; i++) {
         if (!valid[i])
@@ -147,9 +141,10 @@ constexpr int crossings(const Cone<N>& s, const Ray<N>& ray, typename N::Length 
     return (n > 0 && t[0] < limit) + (n > 1 && t[1] < limit);
 }
 
-// The outward unit normal at a hit; at an apex, the axis away from the body.
+// The outward unit normal at a hit (at an apex, the axis away from the body), and the point, moved onto the surface along
+// it: where a ray grazes, or is nearly parallel to a generator, its t alone would leave that some ulp off.
 template <class N>
-constexpr Direction<N> normal_at(const Cone<N>& s, const Local<N>& local, const Direction<N>& d)
+constexpr void surface_of(const Cone<N>& s, const Local<N>& local, const Direction<N>& d, Point<N>& point, Direction<N>& n)
 {
     const Point<N> w = local.near + along<N>(local.along, d);
     const auto z = N::length(dot<N>(w, s.axis));
@@ -161,9 +156,10 @@ constexpr Direction<N> normal_at(const Cone<N>& s, const Local<N>& local, const 
     const Point<N> outward{N::length(N::length(c * across.x) * c - back * s.axis.x),
                            N::length(N::length(c * across.y) * c - back * s.axis.y),
                            N::length(N::length(c * across.z) * c - back * s.axis.z)};
-    Direction<N> n = s.sine > N::zero ? -s.axis : s.axis;
+    n = s.sine > N::zero ? -s.axis : s.axis;
     normalise<N>(outward, n);
-    return n;
+    const auto height = N::length(c * N::sqrt(norm2<N>(across))) - rho;
+    point = s.middle + coarse<N>(w - along<N>(height, n), s.fine);
 }
 
 } // namespace qray

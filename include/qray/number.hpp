@@ -254,12 +254,10 @@ struct FixedSystem {
         return limit > c.raw && -limit < c.raw;
     }
 
-    // How far a new ray starts from the surface it leaves: 4 ulp along the geometric normal. (In floating point the
-    // error of a hit on a flat surface, which its rounded normal dominates, is the larger.)
-    QRAY_INLINE static constexpr Length step_off(Length q, Unit g, bool outward, bool)
+    // How far a new ray starts from the surface it leaves: 4 ulp along the geometric normal.
+    QRAY_INLINE static constexpr Length leave(Unit g)
     {
-        const int32_t step = (g.raw + (1 << (UnitFrac - 3))) >> (UnitFrac - 2);
-        return {outward ? q.raw + step : q.raw - step};
+        return {(g.raw + (1 << (UnitFrac - 3))) >> (UnitFrac - 2)};
     }
 
     // A hit within this of a light is a hit at the light.
@@ -386,11 +384,15 @@ struct FloatSystem {
         constexpr F limit = sizeof(F) == 4 ? F(1e-5) : F(1e-9);
         return c < limit && c > -limit;
     }
-    QRAY_INLINE static constexpr F step_off(F q, F g, bool outward, bool flat)
+    // How far a new ray starts from the surface it leaves, at a point that lies on it to its own rounding.
+    QRAY_INLINE static constexpr F leave(F x, F y, F z)
     {
-        const F step = (flat ? F(32) : F(8)) * epsilon;
-        return q + g * (outward ? step : -step);
+        const F ax = x < 0 ? -x : x, ay = y < 0 ? -y : y, az = z < 0 ? -z : z;
+        const F xy = ax > ay ? ax : ay;
+        return ((xy > az ? xy : az) * leave_relative + leave_least) * epsilon;
     }
+    static constexpr F leave_relative = 2, leave_least = 4;
+
     static constexpr F light_clearance = F(2048) * epsilon;
 
     QRAY_INLINE static constexpr F power_whole(F x, Shine e)

@@ -59,6 +59,13 @@ QRAY_INLINE constexpr Point<N> fine_offset(typename N::Length middle, const Dire
             N::fine_sub(middle * d.z, v.z, fine)};
 }
 
+// Back from the block scale.
+template <class N>
+QRAY_INLINE constexpr Point<N> coarse(const Point<N>& p, int32_t fine)
+{
+    return {N::coarse(p.x, fine), N::coarse(p.y, fine), N::coarse(p.z, fine)};
+}
+
 template <class N>
 struct Hit {
     typename N::Length t; // > 0
@@ -82,7 +89,6 @@ struct Surface {
     Direction<N> normal;
     typename N::Unit n_d; // normal . d of the ray that sees it, <= 0
     bool turned;          // the normal was turned
-    bool flat; // a disc, a polygon or a triangle
 };
 
 } // namespace qray

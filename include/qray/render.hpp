@@ -1,6 +1,7 @@
 // Pictures: single pixels, rows, or the whole to a sink.
 #pragma once
 
+#include "adaptive.hpp"
 #include "grid.hpp"
 #include "sink.hpp"
 
@@ -14,6 +15,9 @@ constexpr Pixel render_pixel(const Scene<N, E>& scene, uint32_t i, uint32_t j, C
     const int32_t n = c.grid;
     const int32_t x = 2 * n * static_cast<int32_t>(i) + 1 - n * c.width;
     const int32_t y = 2 * n * static_cast<int32_t>(j) + 1 - n * c.height;
+    if constexpr (E.adaptive)
+        if (!E.grid || scene.levels.value != 0)
+            return adaptive_pixel(scene, x - 1, y - 1, count);
     if constexpr (E.grid)
         return grid_pixel(scene, x, y, count);
     else

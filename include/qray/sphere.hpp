@@ -31,7 +31,7 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
     if (middle < -reach)
         return false;
     const Point<N> p = along<N>(middle, ray.direction) - v;
-    if (norm2<N>(p) > reach * reach)
+    if (leaving != Leaves::inward && norm2<N>(p) > reach * reach)
         return false;
     from_centre = fine_offset<N>(middle, ray.direction, v, s.fine);
     const auto p2 = norm2<N>(from_centre);
@@ -92,15 +92,17 @@ QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Ray<N>& ray, typen
     return (near > N::length_zero) + (far > N::length_zero && far < limit);
 }
 
-// The outward unit normal at a hit.
+// The outward unit normal at a hit, and the point: centre + r n, which lies on the sphere to 1 ulp however far the ray has come
+// and whatever its direction's length.
 template <class N>
-QRAY_INLINE constexpr Direction<N> normal_at(const Sphere<N>& s, const Local<N>& local, const Direction<N>& d)
+QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Local<N>& local, const Direction<N>& d, Point<N>& point,
+                                      Direction<N>& n)
 {
     const Point<N> w = local.near + along<N>(local.along, d);
-    Direction<N> n{N::ratio(w.x, s.inverse_radius), N::ratio(w.y, s.inverse_radius), N::ratio(w.z, s.inverse_radius)};
+    n = {N::ratio(w.x, s.inverse_radius), N::ratio(w.y, s.inverse_radius), N::ratio(w.z, s.inverse_radius)};
     // An error of |d| shows in |w|, and between mirrors would grow from one to the next.
     N::sharpen(n.x, n.y, n.z);
-    return n;
+    point = s.centre + coarse<N>(along<N>(s.radius, n), s.fine);
 }
 
 } // namespace qray

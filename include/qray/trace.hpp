@@ -14,27 +14,40 @@ struct NoCount {
     constexpr void operator()(RayKind) const {}
 };
 
+// A hit on the plane through c: in floating point moved onto it, since its error is that of t.
+template <class N>
+QRAY_INLINE constexpr void flat_surface([[maybe_unused]] const Point<N>& c, const Direction<N>& normal, const Ray<N>& ray,
+                                        typename N::Length t, Surface<N>& s)
+{
+    s.geometric = normal;
+    s.point = ray.origin + along<N>(t, ray.direction);
+    if constexpr (!N::is_fixed)
+        s.point = s.point - along<N>(dot<N>(s.point - c, normal), normal);
+}
+
 template <class N, Effects E>
 QRAY_INLINE constexpr Surface<N> surface_at(const Scene<N, E>& scene, const Ray<N>& ray, const Hit<N>& hit)
 {
-    Surface<N> s{ray.origin + along<N>(hit.t, ray.direction), {}, {}, {}, false, hit.kind != Kind::sphere && hit.kind != Kind::cone};
+    Surface<N> s{};
     constexpr bool one_kind = E.shapes() == 1;
     if constexpr (E.sphere)
         if (one_kind || hit.kind == Kind::sphere)
-            s.geometric = normal_at(scene.spheres[hit.index], hit.local, ray.direction);
-    if constexpr (E.disc)
-        if (one_kind || hit.kind == Kind::disc)
-            s.geometric = normal_at(scene.discs[hit.index]);
+            surface_of(scene.spheres[hit.index], hit.local, ray.direction, s.point, s.geometric);
     if constexpr (E.cone)
         if (one_kind || hit.kind == Kind::cone)
-            s.geometric = normal_at(scene.cones[hit.index], hit.local, ray.direction);
+            surface_of(scene.cones[hit.index], hit.local, ray.direction, s.point, s.geometric);
+    if constexpr (E.disc)
+        if (one_kind || hit.kind == Kind::disc)
+            flat_surface(scene.discs[hit.index].centre, scene.discs[hit.index].normal, ray, hit.t, s);
     if constexpr (E.polygon)
-        if (one_kind || hit.kind == Kind::polygon)
-            s.geometric = normal_at(scene.polygons[hit.index]);
+        if (one_kind || hit.kind == Kind::polygon) {
+            const Polygon<N>& polygon = scene.polygons[hit.index];
+            flat_surface(scene.vertices[polygon.first], polygon.normal, ray, hit.t, s);
+        }
     if constexpr (E.patch)
         if (one_kind || hit.kind == Kind::patch) {
             const Patch<N>& patch = scene.patches[hit.index];
-            s.geometric = patch.normal;
+            flat_surface(scene.vertices[patch.first], patch.normal, ray, hit.t, s);
             s.normal = shading_normal(patch, scene.vertices.data, scene.normals.data, ray);
         }
     if (!E.patch || (!one_kind && hit.kind != Kind::patch))
@@ -57,8 +70,7 @@ QRAY_INLINE constexpr Ray<N> leaving(const Surface<N>& s, [[maybe_unused]] Kind 
     if constexpr (E.patch)
         if (E.shapes() == 1 || kind == Kind::patch)
             outward = dot<N>(s.geometric, d) > typename N::Cosine{};
-    return {N::step_off(s.point.x, s.geometric.x, outward, s.flat), N::step_off(s.point.y, s.geometric.y, outward, s.flat),
-            N::step_off(s.point.z, s.geometric.z, outward, s.flat), d, tag, outward};
+    return {step_off<N>(s.point, s.geometric, outward), d, tag, outward};
 }
 
 template <class N, Effects E>

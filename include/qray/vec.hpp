@@ -49,6 +49,21 @@ QRAY_INLINE constexpr Vec<typename N::Colour> scaled(typename N::Unit k, const V
     return {N::colour(c.x * k), N::colour(c.y * k), N::colour(c.z * k)};
 }
 
+// The point a little off q on one side of a surface with normal g: where a ray starts that leaves it.
+template <class N>
+QRAY_INLINE constexpr Vec<typename N::Length> step_off(const Vec<typename N::Length>& q,
+                                                       const Vec<typename N::Unit>& g, bool outward)
+{
+    if constexpr (N::is_fixed) {
+        const auto o = outward ? g : -g;
+        return {q.x + N::leave(o.x), q.y + N::leave(o.y), q.z + N::leave(o.z)};
+    } else {
+        const auto step = N::leave(q.x, q.y, q.z);
+        const auto k = outward ? step : -step;
+        return {q.x + g.x * k, q.y + g.y * k, q.z + g.z * k};
+    }
+}
+
 // The unit vector along v, each component within 1 ulp (fixed point). False, and u untouched, where v is zero.
 template <class N, class T>
 QRAY_INLINE constexpr bool normalise(const Vec<T>& v, Vec<typename N::Unit>& u)

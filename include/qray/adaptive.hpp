@@ -1,0 +1,113 @@
+// Adaptive sampling (IMAGE section 5): a pixel is cut in four, and a quarter that stands out from the other three is
+// cut in four in turn. At least 4 samples a pixel, at most 4^levels + 4^(levels - 1) + ... + 4; nothing is kept of them
+// but their sum.
+#pragma once
+
+#include "sampler.hpp"
+
+namespace qray {
+
+constexpr int max_adaptive_levels = 6;
+
+// Samples, each weighed by 4^k.
+template <class N>
+struct WeightedSum {
+    uint64_t r = 0, g = 0, b = 0;
+    constexpr void add(const Sample<N>& s, int k)
+    {
+        r += uint64_t{s.r} << 2 * k;
+        g += uint64_t{s.g} << 2 * k;
+        b += uint64_t{s.b} << 2 * k;
+    }
+    // Of weights that add up to 4^k, k >= 1; to the nearest.
+    constexpr Sample<N> mean(int k) const { return {mean(r, 2 * k), mean(g, 2 * k), mean(b, 2 * k)}; }
+
+private:
+    static constexpr uint32_t mean(uint64_t sum, int shift)
+    {
+        return static_cast<uint32_t>((sum + (uint64_t{1} << (shift - 1))) >> shift);
+    }
+};
+template <class N>
+    requires(!N::is_fixed)
+struct WeightedSum<N> {
+    using Level = typename Sample<N>::Level;
+    Level r = 0, g = 0, b = 0;
+    constexpr void add(const Sample<N>& s, int k)
+    {
+        const auto weight = static_cast<Level>(uint32_t{1} << 2 * k);
+        r += s.r * weight;
+        g += s.g * weight;
+        b += s.b * weight;
+    }
+    constexpr Sample<N> mean(int k) const
+    {
+        const auto share = Level(1) / static_cast<Level>(uint32_t{1} << 2 * k);
+        return {r * share, g * share, b * share};
+    }
+};
+
+// Is one of four values farther than the threshold from the mean of the other three? 3 times that difference is 4 times
+// the value less the sum of all. Exact in fixed point.
+template <class N>
+constexpr bool stands_out(typename Sample<N>::Level own, typename Sample<N>::Level sum, typename N::Unit threshold)
+{
+    if constexpr (N::is_fixed) {
+        const uint32_t limit = 3 * static_cast<uint32_t>(threshold.raw) >> (N::Unit::frac - 28);
+        return (4 * own > sum ? 4 * own - sum : sum - 4 * own) > limit;
+    } else {
+        const auto limit = 3 * threshold;
+        return 4 * own - sum > limit || sum - 4 * own > limit;
+    }
+}
+
+// (x, y) is the pixel's corner, and the camera's grid 2^levels.
+template <class N, Effects E, class Count>
+constexpr Pixel adaptive_pixel(const Scene<N, E>& scene, int32_t x, int32_t y, Count& count)
+{
+    const int levels = scene.levels.value;
+    WeightedSum<N> sum;
+    // The square that is cut: from the pixel's corner its middle is at odd multiples of 2^half, half its edge.
+    int half = levels;
+    int32_t u = int32_t{1} << half, v = u;
+    // The quarters that wait to be cut: 4 bits for each square around this one, the smallest lowest.
+    uint32_t waiting = 0;
+    static_assert(4 * max_adaptive_levels <= 32);
+    for (;;) {
+        Sample<N> own[4]{};
+        const int32_t step = int32_t{1} << half >> 1;
+        for (int k = 0; k < 4; k++) {
+            const Pencil<N> row = scene.camera.row(y + (k & 2 ? v + step : v - step));
+            own[k] = sample(scene, row + scene.camera.right * (x + (k & 1 ? u + step : u - step)), count);
+        }
+        const Sample<N> all{own[0].r + own[1].r + own[2].r + own[3].r, own[0].g + own[1].g + own[2].g + own[3].g,
+                            own[0].b + own[1].b + own[2].b + own[3].b};
+        waiting <<= 4;
+        for (int k = 0; k < 4; k++) {
+            const auto threshold = scene.threshold.value;
+            if (half > 1
+                && (stands_out<N>(own[k].r, all.r, threshold) || stands_out<N>(own[k].g, all.g, threshold)
+                    || stands_out<N>(own[k].b, all.b, threshold)))
+                waiting |= uint32_t{1} << k;
+            else
+                sum.add(own[k], half - 1);
+        }
+        while ((waiting & 15) == 0) {
+            if (half == levels)
+                return pixel_of(sum.mean(levels));
+            waiting >>= 4;
+            half++;
+            u = (u >> half | 1) * (int32_t{1} << half);
+            v = (v >> half | 1) * (int32_t{1} << half);
+        }
+        int k = 0;
+        while ((waiting >> k & 1) == 0)
+            k++;
+        waiting &= waiting - 1;
+        half--;
+        u += k & 1 ? int32_t{1} << half : -(int32_t{1} << half);
+        v += k & 2 ? int32_t{1} << half : -(int32_t{1} << half);
+    }
+}
+
+} // namespace qray
