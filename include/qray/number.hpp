@@ -257,7 +257,7 @@ struct FixedSystem {
     // How far a new ray starts from the surface it leaves: 4 ulp along the geometric normal.
     QRAY_INLINE static constexpr Length leave(Unit g)
     {
-        return {(g.raw + (1 << (UnitFrac - 3))) >> (UnitFrac - 2)};
+        return {(g.raw + (1 << (UnitFrac - 2))) >> (UnitFrac - 1)};
     }
 
     // A hit within this of a light is a hit at the light.
