@@ -55,11 +55,23 @@ struct SphereOf {
         Local<N> local{};
         return intersect(shape, ray, limit, t, local);
     }
-    Vec3 normal(const Ray<N>& ray) const
+    // Where the ray meets it, and the normal there; both zero where it does not.
+    void surface(const Ray<N>& ray, Vec3& point, Vec3& normal) const
     {
         Length t{};
         Local<N> local{};
-        return intersect(shape, ray, N::length_max, t, local) ? value(normal_at(shape, local, ray.direction)) : Vec3{};
+        Point<N> q{};
+        Direction<N> n{};
+        if (intersect(shape, ray, N::length_max, t, local))
+            surface_of(shape, local, ray.direction, q, n);
+        point = value(q);
+        normal = value(n);
+    }
+    Vec3 normal(const Ray<N>& ray) const
+    {
+        Vec3 point, n;
+        surface(ray, point, n);
+        return n;
     }
     int crossings(const Ray<N>& ray, Length distance) const { return qray::crossings(shape, ray, distance); }
 };
@@ -115,11 +127,23 @@ struct ConeOf {
         Local<N> local{};
         return intersect(shape, ray, limit, t, local);
     }
-    Vec3 normal(const Ray<N>& ray) const
+    // Where the ray meets it, and the normal there; both zero where it does not.
+    void surface(const Ray<N>& ray, Vec3& point, Vec3& normal) const
     {
         Length t{};
         Local<N> local{};
-        return intersect(shape, ray, N::length_max, t, local) ? value(normal_at(shape, local, ray.direction)) : Vec3{};
+        Point<N> q{};
+        Direction<N> n{};
+        if (intersect(shape, ray, N::length_max, t, local))
+            surface_of(shape, local, ray.direction, q, n);
+        point = value(q);
+        normal = value(n);
+    }
+    Vec3 normal(const Ray<N>& ray) const
+    {
+        Vec3 point, n;
+        surface(ray, point, n);
+        return n;
     }
     int crossings(const Ray<N>& ray, Length distance) const { return qray::crossings(shape, ray, distance); }
 };

@@ -247,4 +247,32 @@ TYPED_TEST(ConeTest, NormalsAreUnitAndAcrossTheGenerator)
     EXPECT_LE(worst, 2);
 }
 
+// However far the ray has come: so that a ray that leaves from there starts on the right side.
+TYPED_TEST(ConeTest, PointOfAHitLiesOnTheSurface)
+{
+    QRAY_SHAPE_TEST;
+    Random random(42);
+    double worst = 0;
+    int hits = 0;
+    for (int i = 0; i < 10000; i++) {
+        const Vec3 base = random.point(2), apex = base + random.direction() * random.uniform(1, 4);
+        const ConeOf<N> s(base, random.uniform(0.5, 2), apex, random.uniform(0, 2));
+        const Vec3 from = random.direction() * 14;
+        const auto ray = M::ray(from, random.point(3) - from);
+        if (!s.hit(ray, limit, t))
+            continue;
+        hits++;
+        Vec3 q, n;
+        s.surface(ray, q, n);
+        // c |x_perp| = rho0 + s z.
+        const auto w = real(q) - real(s.shape.middle), axis = real(s.shape.axis);
+        const Real z = dot(w, axis), rho = length(w - axis * z);
+        const Real rho0 = std::ldexp(Real(value(s.shape.rho0)), -s.shape.fine);
+        const Real off = value(s.shape.cosine) * rho - rho0 - value(s.shape.sine) * z;
+        worst = std::fmax(worst, static_cast<double>(std::fabs(off)) / M::length_ulp(8));
+    }
+    EXPECT_GT(hits, 500);
+    EXPECT_LE(worst, 3);
+}
+
 } // namespace

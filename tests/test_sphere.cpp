@@ -183,4 +183,28 @@ TYPED_TEST(SphereTest, NormalPointsOutwardAndIsUnit)
     EXPECT_NEAR(s.normal(M::ray({1, -2, 0.5}, {0, -1, 0})).y, -1, M::unit_ulp());
 }
 
+// However far the ray has come: so that a ray that leaves from there starts on the right side.
+TYPED_TEST(SphereTest, PointOfAHitLiesOnTheSphere)
+{
+    QRAY_SHAPE_TEST;
+    Random random(22);
+    double worst = 0, worst_hit = 0;
+    for (int i = 0; i < 5000; i++) {
+        const double r = std::exp2(random.uniform(-4, 1));
+        const SphereOf<N> s(random.point(3), r);
+        const Vec3 from = random.direction() * 14;
+        const auto ray = M::ray(from, value(s.shape.centre) + random.direction() * (0.7 * r) - from);
+        if (!s.hit(ray, limit, t))
+            continue;
+        Vec3 q, n;
+        s.surface(ray, q, n);
+        const double rho = static_cast<double>(length(real(q) - real(s.shape.centre)));
+        worst = std::fmax(worst, std::fabs(rho - s.radius()) / M::length_ulp(4));
+        const auto expected = real(ray.origin) + real(ray.direction) * Quadratic<N>(s, ray).nearest();
+        worst_hit = std::fmax(worst_hit, distance(q, rounded(expected)) / M::length_ulp(16));
+    }
+    EXPECT_LE(worst, 2); // three components, each rounded
+    EXPECT_LE(worst_hit, 4);
+}
+
 } // namespace
