@@ -123,7 +123,7 @@ constexpr int leading_zero_pairs(uint32_t x)
 }
 
 // a * b, exact.
-constexpr int64_t wide_mul(int32_t a, int32_t b)
+QRAY_SHARED constexpr int64_t wide_mul(int32_t a, int32_t b)
 {
 #if QRAY_NARROW_MULTIPLY
     // a = ah 2^16 + al, b likewise; q = ah bl + (al bl >> 16) and r = al bh + (q mod 2^16) both fit
@@ -204,6 +204,39 @@ constexpr uint32_t mul_high(uint32_t a, uint32_t b)
     }
 #endif
     return static_cast<uint32_t>(uint64_t{a} * b >> 32);
+}
+
+// x / 2^Shift to the nearest, halves up, for results that fit 32 bits.
+template <int Shift>
+QRAY_INLINE constexpr int32_t rounding_shift(int64_t x)
+{
+#if QRAY_NARROW_MULTIPLY
+    if constexpr (Shift < 32) {
+        if (!__builtin_is_constant_evaluated()) {
+            // The last bit that the lower half's shift drops is the carry.
+            uint32_t low = static_cast<uint32_t>(x);
+            const uint32_t high = static_cast<uint32_t>(static_cast<uint64_t>(x) >> 32) << (32 - Shift);
+            __asm__(".syntax unified\n\t"
+                    "lsrs %[low], %[low], %[shift]\n\t"
+                    "adcs %[low], %[low], %[high]\n\t"
+                    : [low] "+l"(low)
+                    : [high] "l"(high), [shift] "i"(Shift)
+                    : "cc");
+            return static_cast<int32_t>(low);
+        }
+    }
+#endif
+    return static_cast<int32_t>((x + (int64_t{1} << (Shift - 1))) >> Shift);
+}
+
+// The same for a shift in [1, 31] that is not known before.
+QRAY_INLINE constexpr int32_t rounding_shift(int64_t x, int shift)
+{
+    if constexpr (sizeof(void*) == 8)
+        return static_cast<int32_t>((x + (int64_t{1} << (shift - 1))) >> shift);
+    const uint32_t low = static_cast<uint32_t>(x);
+    const uint32_t high = static_cast<uint32_t>(static_cast<uint64_t>(x) >> 32);
+    return static_cast<int32_t>((high << (32 - shift)) + (low >> shift) + ((low >> (shift - 1)) & 1));
 }
 
 // The upper 32 bits of a * a.

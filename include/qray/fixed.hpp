@@ -71,8 +71,10 @@ QRAY_INLINE constexpr To round_to(Wide<Frac, Bits> w)
 {
     constexpr int shift = Frac - To::frac;
     static_assert(shift > 0 && shift < 63);
-    using Rep = typename Wide<Frac, Bits>::Rep;
-    return {static_cast<int32_t>((w.raw + (Rep{1} << (shift - 1))) >> shift)};
+    if constexpr (Bits == 32)
+        return {rounding_shift<shift>(w.raw)};
+    else
+        return {(w.raw + (int32_t{1} << (shift - 1))) >> shift};
 }
 
 // a - b and a + b, clamped to the range of 32 bits.

@@ -83,7 +83,10 @@ struct FixedSystem {
         using Rep = typename Moment::Rep;
         const int32_t down = UnitFrac - fine;
         const Rep w = a.raw - (Rep{b.raw} * (Rep{1} << UnitFrac));
-        return {static_cast<int32_t>((w + (Rep{1} << (down - 1))) >> down)};
+        if constexpr (Bits == 32)
+            return {rounding_shift(w, down)};
+        else
+            return {(w + (Rep{1} << (down - 1))) >> down};
     }
     QRAY_INLINE static constexpr Length coarse(Length a, int32_t fine)
     {
