@@ -10,7 +10,7 @@
 // special case where the ray is parallel to a generator. A nearly axial d is block-scaled by 2^k.
 #pragma once
 
-#include "ray.hpp"
+#include "narrow.hpp"
 
 namespace qray {
 
@@ -26,6 +26,12 @@ struct Cone {
     int32_t fine;               // >= 0; 0 in floating point: see sphere.hpp
     Tag tag;
 };
+
+template <class N>
+QRAY_INLINE constexpr bool surely_missed(const Cone<N>& s, const NarrowRay<N>& narrow)
+{
+    return narrow.misses_ball(s.middle, N::coarse_above(s.bound, s.fine));
+}
 
 // The ray's meetings with the frustum, t > 0: how many (0, 1 or 2), the nearer in t[0].
 template <class N>
@@ -119,7 +125,7 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
     return valid[0] || valid[1];
 }
 
-template <class N>
+template <bool Near = false, class N>
 constexpr bool intersect(const Cone<N>& s, const Ray<N>& ray, typename N::Length limit, typename N::Length& t,
                          Local<N>& local)
 {
@@ -131,7 +137,7 @@ constexpr bool intersect(const Cone<N>& s, const Ray<N>& ray, typename N::Length
     return true;
 }
 
-template <class N>
+template <bool Near = false, class N>
 constexpr int crossings(const Cone<N>& s, const Ray<N>& ray, typename N::Length distance)
 {
     const auto limit = distance - N::light_clearance;

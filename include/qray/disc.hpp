@@ -2,7 +2,7 @@
 // the disc of radius sqrt(far^2 - h^2) around the foot of that centre, and is stored as one.
 #pragma once
 
-#include "ray.hpp"
+#include "narrow.hpp"
 
 namespace qray {
 
@@ -13,6 +13,12 @@ struct Disc {
     typename N::Length radius;
     Tag tag;
 };
+
+template <class N>
+QRAY_INLINE constexpr bool surely_missed(const Disc<N>& s, const NarrowRay<N>& narrow)
+{
+    return narrow.misses_plane(s.centre, s.normal);
+}
 
 // t = n.(c - o) / n.d, where that is in (0, limit]. A numerator beyond limit times the denominator is
 // turned away before the division, so that no quotient overflows.
@@ -39,9 +45,9 @@ QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typena
     const Point<N> a = along<N>(t, ray.direction);
     const Point<N> w{N::saturating_sub(a.x, v.x), N::saturating_sub(a.y, v.y), N::saturating_sub(a.z, v.z)};
     const auto r = s.radius;
-    // Outside the square first: the sum of squares below then fits.
-    if (w.x > r || w.y > r || w.z > r || -w.x > r || -w.y > r || -w.z > r)
-        return false;
+    if constexpr (N::is_fixed) // outside the cube first: the sum of squares below then fits
+        if (w.x > r || w.y > r || w.z > r || -w.x > r || -w.y > r || -w.z > r)
+            return false;
     return norm2<N>(w) <= r * r;
 }
 

@@ -36,6 +36,13 @@ concept HasCorners = requires(const S& s) { s.first; };
 template <class S>
 concept IsCurved = requires(const S& s) { s.fine; };
 
+// The surface that a ray leaves is not met again where it is flat, or where the ray leaves it outward: all are convex.
+template <class S, class N>
+QRAY_INLINE constexpr bool never_again(const S& shape, const Ray<N>& ray)
+{
+    return ray.from == shape.tag && (!IsCurved<S> || ray.outward);
+}
+
 template <class N, Effects E, class S>
 QRAY_INLINE constexpr bool intersect_in(const Scene<N, E>& scene, const S& shape, const Ray<N>& ray,
                                         typename N::Length limit, typename N::Length& t,
@@ -44,7 +51,7 @@ QRAY_INLINE constexpr bool intersect_in(const Scene<N, E>& scene, const S& shape
     if constexpr (HasCorners<S>)
         return intersect(shape, scene.vertices.data, ray, limit, t);
     else if constexpr (IsCurved<S>)
-        return intersect(shape, ray, limit, t, local);
+        return intersect<!E.tree>(shape, ray, limit, t, local);
     else
         return intersect(shape, ray, limit, t);
 }
@@ -54,6 +61,8 @@ QRAY_INLINE constexpr int crossings_in(const Scene<N, E>& scene, const S& shape,
 {
     if constexpr (HasCorners<S>)
         return crossings(shape, scene.vertices.data, ray, limit);
+    else if constexpr (IsCurved<S>)
+        return crossings<!E.tree>(shape, ray, limit);
     else
         return crossings(shape, ray, limit);
 }
@@ -85,10 +94,14 @@ template <class N, Effects E, class Limit, class F>
 QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_unused]] const Ray<N>& ray,
                                               [[maybe_unused]] Limit limit, F f)
 {
-    if constexpr (E.tree)
+    if constexpr (E.tree) {
         walk(scene.tree.value, ray, limit, [&](ShapeId id) { return with_shape(scene, id, f); });
-    else
-        for_each_shape(scene, f);
+    } else {
+        const NarrowRay<N> narrow(ray);
+        for_each_shape(scene, [&](const auto& shape, Kind kind, uint32_t index) {
+            return !never_again(shape, ray) && !surely_missed(shape, narrow) && f(shape, kind, index);
+        });
+    }
 }
 
 template <class N, Effects E>

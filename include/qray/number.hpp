@@ -24,6 +24,7 @@ struct FixedScale {
 template <int LengthFrac, int UnitFrac, int ColourFrac, int Bits>
 struct FixedSystem {
     static constexpr bool is_fixed = true;
+    static constexpr bool is_wide = Bits == 32; // products take two registers on a 32-bit machine
     using Length = Fixed<LengthFrac, Bits>;
     using Unit = Fixed<UnitFrac, Bits>;
     using Colour = Fixed<ColourFrac, Bits>;

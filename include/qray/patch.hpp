@@ -15,6 +15,12 @@ struct Patch {
 };
 
 template <class N>
+QRAY_INLINE constexpr bool surely_missed(const Patch<N>& s, const NarrowRay<N>& narrow)
+{
+    return narrow.misses_ball(s.middle, s.bound);
+}
+
+template <class N>
 constexpr bool intersect(const Patch<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length limit,
                          typename N::Length& t)
 {

@@ -129,6 +129,12 @@ constexpr bool intersect_corners(const Direction<N>& normal, uint32_t count, Cor
 }
 
 template <class N>
+QRAY_INLINE constexpr bool surely_missed(const Polygon<N>& s, const NarrowRay<N>& narrow)
+{
+    return narrow.misses_ball(s.middle, s.bound);
+}
+
+template <class N>
 constexpr bool intersect(const Polygon<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length limit,
                          typename N::Length& t)
 {

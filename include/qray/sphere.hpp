@@ -6,7 +6,7 @@
 // `fine` more bits than Length, so that a small ball far away is as round as a large one.
 #pragma once
 
-#include "ray.hpp"
+#include "narrow.hpp"
 
 namespace qray {
 
@@ -19,20 +19,28 @@ struct Sphere {
     Tag tag;
 };
 
-// Half the chord that the ray cuts from the sphere, the t of its middle, and that middle, from the centre; false
-// where they do not meet. `from_centre` and `half` are times 2^fine.
 template <class N>
+QRAY_INLINE constexpr bool surely_missed(const Sphere<N>& s, const NarrowRay<N>& narrow)
+{
+    return narrow.misses_ball(s.centre, N::coarse_above(s.radius, s.fine));
+}
+
+// Half the chord that the ray cuts from the sphere, the t of its middle, and that middle, from the centre; false
+// where they do not meet. `from_centre` and `half` are times 2^fine. Near: the ray is known not to be surely_missed().
+template <bool Near, class N>
 QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves leaving, typename N::Length& middle,
                                  typename N::Length& half, Point<N>& from_centre)
 {
     const Point<N> v = s.centre - ray.origin;
     middle = N::length(dot<N>(v, ray.direction));
-    const auto reach = N::coarse_above(s.radius, s.fine);
-    if (middle < -reach)
-        return false;
-    const Point<N> p = along<N>(middle, ray.direction) - v;
-    if (leaving != Leaves::inward && norm2<N>(p) > reach * reach)
-        return false;
+    if constexpr (!Near || !N::is_fixed) {
+        const auto reach = N::coarse_above(s.radius, s.fine);
+        if (middle < -reach)
+            return false;
+        const Point<N> p = along<N>(middle, ray.direction) - v;
+        if (leaving != Leaves::inward && norm2<N>(p) > reach * reach)
+            return false;
+    }
     from_centre = fine_offset<N>(middle, ray.direction, v, s.fine);
     const auto p2 = norm2<N>(from_centre);
     const auto r2 = s.radius * s.radius;
@@ -45,7 +53,7 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
 }
 
 // The nearest t in (0, limit], or false. t is within 2 ulp of the hit of the ray as given, more where it grazes.
-template <class N>
+template <bool Near = false, class N>
 QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Ray<N>& ray, typename N::Length limit,
                                      typename N::Length& t, Local<N>& local)
 {
@@ -53,7 +61,7 @@ QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Ray<N>& ray, type
     if (leaving == Leaves::outward) // convex: never met again
         return false;
     typename N::Length middle{}, half{};
-    if (!chord(s, ray, leaving, middle, half, local.near))
+    if (!chord<Near>(s, ray, leaving, middle, half, local.near))
         return false;
     const auto coarse = N::coarse(half, s.fine);
     t = middle - coarse;
@@ -71,7 +79,7 @@ QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Ray<N>& ray, type
 }
 
 // How often the ray crosses the sphere strictly between its origin and a light at `distance`: 0, 1 or 2.
-template <class N>
+template <bool Near = false, class N>
 QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Ray<N>& ray, typename N::Length distance)
 {
     const Leaves leaving = leaves(ray, s.tag);
@@ -79,7 +87,7 @@ QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Ray<N>& ray, typen
         return 0;
     typename N::Length middle{}, half{};
     Point<N> from_centre{};
-    if (!chord(s, ray, leaving, middle, half, from_centre))
+    if (!chord<Near>(s, ray, leaving, middle, half, from_centre))
         return 0;
     const auto limit = distance - N::light_clearance;
     const auto coarse = N::coarse(half, s.fine);
