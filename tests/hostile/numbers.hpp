@@ -1,0 +1,195 @@
+// Random numbers, vectors in an oracle's arithmetic, and the way between a number system and the reals.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "scene/convert.hpp"
+
+namespace hostile {
+
+using Wide = long double;
+using Quad = __float128;
+
+// splitmix64 (Steele, Lea, Flood 2014): the same numbers from the same seed everywhere.
+struct Random {
+    uint64_t state;
+    explicit Random(uint64_t seed) : state(seed) {}
+    uint64_t next()
+    {
+        uint64_t z = state += 0x9e3779b97f4a7c15u;
+        z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+        return z ^ z >> 31;
+    }
+    double unit() { return static_cast<double>(next() >> 11) * 0x1p-53; }
+    double in(double low, double high) { return low + (high - low) * unit(); }
+    double logarithmic(double low, double high) { return low * std::pow(high / low, unit()); }
+    uint32_t below(uint32_t n) { return static_cast<uint32_t>((next() >> 32) * n >> 32); }
+    bool chance(double p) { return unit() < p; }
+};
+
+template <class R>
+struct Vec3 {
+    R x, y, z;
+    friend Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    friend Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    friend Vec3 operator*(const Vec3& a, R k) { return {a.x * k, a.y * k, a.z * k}; }
+};
+template <class R>
+R dot(const Vec3<R>& a, const Vec3<R>& b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class R>
+Vec3<R> cross(const Vec3<R>& a, const Vec3<R>& b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Wide root(Wide v) { return std::sqrt(v); }
+// The 64 bits of long double's root, doubled by a Newton step.
+inline Quad root(Quad v)
+{
+    if (!(v > 0))
+        return 0;
+    const Quad s = static_cast<Quad>(std::sqrt(static_cast<Wide>(v)));
+    return (s + v / s) / 2;
+}
+template <class R>
+R size(R v)
+{
+    return v < 0 ? -v : v;
+}
+template <class R>
+R length(const Vec3<R>& a)
+{
+    return root(dot(a, a));
+}
+
+using Double3 = qray::scene::Vec3d;
+
+inline Double3 direction(Random& random)
+{
+    for (;;) {
+        const Double3 d{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)};
+        const double l = length(d);
+        if (l <= 1 && l > 0.01)
+            return d * (1 / l);
+    }
+}
+inline Double3 in_ball(Random& random, double radius)
+{
+    for (;;) {
+        const Double3 d{random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)};
+        if (length(d) <= 1)
+            return d * radius;
+    }
+}
+// A unit vector across n.
+inline Double3 across(Random& random, const Double3& n)
+{
+    using namespace qray::scene;
+    for (;;) {
+        const Double3 d = direction(random);
+        const Double3 a = d - n * dot(d, n);
+        if (length(a) > 0.1)
+            return unit(a);
+    }
+}
+
+// The exact value of a number.
+template <class R, class T>
+R exact(T v)
+{
+    if constexpr (requires { v.raw; })
+        return static_cast<R>(v.raw) / static_cast<R>(int64_t{1} << T::frac);
+    else
+        return static_cast<R>(v);
+}
+template <class R, class T>
+Vec3<R> exact3(const qray::Vec<T>& v)
+{
+    return {exact<R>(v.x), exact<R>(v.y), exact<R>(v.z)};
+}
+
+// The spacing of lengths as they occur in a world of +-62: of float and double, of numbers of 32 to 64.
+template <class N>
+constexpr double ulp()
+{
+    if constexpr (N::is_fixed)
+        return 1.0 / static_cast<double>(int64_t{1} << N::Length::frac);
+    else
+        return sizeof(typename N::Length) == 4 ? 0x1p-18 : 0x1p-47;
+}
+
+template <class N>
+constexpr double epsilon()
+{
+    return sizeof(typename N::Length) == 4 ? 0x1p-23 : 0x1p-52;
+}
+
+template <class N>
+qray::Point<N> to_point(const Double3& p)
+{
+    return qray::scene::Convert<N>::point(p);
+}
+template <class N>
+qray::Direction<N> to_direction(const Double3& d)
+{
+    return qray::scene::Convert<N>::direction(qray::scene::unit(d));
+}
+// A direction as a tracer has it, made unit by the number system, and now and then as dozens of reflections leave
+// it: its length off by 16 units in the last place.
+template <class N>
+qray::Direction<N> made_direction(Random& random, const Double3& d)
+{
+    using namespace qray::scene;
+    qray::Direction<N> u = Convert<N>::direction(unit(d) * random.in(0.5, 1));
+    qray::normalise<N>(u, u);
+    if (random.chance(0.125)) {
+        const double ulps = random.chance(0.5) ? 16 : -16;
+        double step = epsilon<N>();
+        if constexpr (N::is_fixed)
+            step = std::ldexp(1, -N::Unit::frac);
+        const double drift = 1 + ulps * step;
+        u = Convert<N>::direction(Double3{exact<double>(u.x), exact<double>(u.y), exact<double>(u.z)} * drift);
+    }
+    return u;
+}
+
+// How rays are thrown at a shape. Needles are figures up to 10^5 times as long as they are wide.
+enum class Regime { ordinary, small_far, grazing, needle };
+inline constexpr const char* regime_names[4] = {"ordinary", "small and far", "grazing", "needle"};
+
+template <class N>
+qray::Ray<N> free_ray(Random& random, const Double3& from, const Double3& towards)
+{
+    return {to_point<N>(from), made_direction<N>(random, towards), {qray::Tag::none}, false};
+}
+
+// All points lie in a ball of this radius.
+inline constexpr double world = 62;
+
+// The meetings of a line with a surface without its rims: how many, at which t, and how far within the rims
+// (negative: outside them).
+template <class R>
+struct Meetings {
+    int count = 0;
+    R t[2]{};
+    R within[2]{};
+    void add(R at, R inside)
+    {
+        t[count] = at;
+        within[count] = inside;
+        count++;
+    }
+    void sort()
+    {
+        if (count == 2 && t[1] < t[0]) {
+            std::swap(t[0], t[1]);
+            std::swap(within[0], within[1]);
+        }
+    }
+};
+
+} // namespace hostile

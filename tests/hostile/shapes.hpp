@@ -1,0 +1,502 @@
+// The shapes: random ones, rays thrown at them, and where those meet them according to an oracle that works on
+// the shape and the ray as they are stored.
+#pragma once
+
+#include <cstdlib>
+#include <memory>
+
+#include <qray/qray.hpp>
+
+#include "numbers.hpp"
+#include "scene/builder.hpp"
+
+namespace hostile {
+
+using qray::Effects;
+
+// A scene of one object, made by the builder. The view holds its box: the frame is the number system's own world,
+// unscaled, as long as the object lies within +-reach.
+inline constexpr double reach = 35;
+
+// Zeros on the heap; pages that nobody touches cost nothing.
+template <class T>
+struct Zeroed {
+    T* const at = static_cast<T*>(std::calloc(1, sizeof(T)));
+    Zeroed() = default;
+    Zeroed(const Zeroed&) = delete;
+    ~Zeroed() { std::free(at); }
+};
+
+template <class N>
+struct Bench {
+    Zeroed<qray::scene::Description> description;
+    Zeroed<qray::scene::Storage<N>> stored;
+    qray::scene::Description& from = *description.at;
+    qray::scene::Storage<N>& storage = *stored.at;
+
+    Bench()
+    {
+        from.view = {{-reach, -reach, -reach}, {reach, reach, reach}, {0, 1, 0}, 45, 1, 1};
+        from.far = world - 0.25; // of itself it would halve the scale
+        from.ambient = {0.2, 0.2, 0.2};
+        from.fill_count = from.object_count = 1;
+        from.fills[0] = {};
+    }
+    void build(const qray::scene::Object& object)
+    {
+        from.objects[0] = object;
+        from.vertex_count = object.count;
+        qray::scene::Error error;
+        const qray::scene::Settings settings;
+        qray::scene::Builder<N>(from, settings, storage).build(error);
+    }
+    static qray::scene::Object object(qray::scene::Shape shape)
+    {
+        qray::scene::Object o;
+        o.shape = shape;
+        return o;
+    }
+};
+
+// A ray towards `target` from a random place, far away in regime small_far.
+template <class N>
+qray::Ray<N> ray_at(Random& random, Regime regime, const Double3& target)
+{
+    using namespace qray::scene;
+    for (;;) {
+        const Double3 from = in_ball(random, world);
+        const double distance = length(target - from);
+        if (distance > (regime == Regime::small_far ? 40 : 1e-3))
+            return free_ray<N>(random, from, target - from);
+    }
+}
+// A ray through `near` that heads along the unit vector d.
+template <class N>
+qray::Ray<N> ray_along(Random& random, const Double3& near, const Double3& d)
+{
+    using namespace qray::scene;
+    double back = random.in(0.5, 100);
+    while (length(near - d * back) > world)
+        back /= 2; // ends: `near` lies in the world
+    return free_ray<N>(random, near - d * back, d);
+}
+
+inline double random_size(Random& random, Regime regime)
+{
+    switch (regime) {
+    case Regime::ordinary: return random.logarithmic(0.5, 16);
+    case Regime::small_far: return random.logarithmic(0.005, 0.05);
+    default: return random.logarithmic(0.1, 16);
+    }
+}
+inline Double3 random_place(Random& random, Regime, double size)
+{
+    const double r = reach - size;
+    return {random.in(-r, r), random.in(-r, r), random.in(-r, r)};
+}
+
+template <class N>
+struct SphereTrial {
+    static constexpr const char* name = "sphere";
+    static constexpr bool curved = true;
+    static constexpr Effects effects = [] {
+        Effects e;
+        e.sphere = true;
+        return e;
+    }();
+    Bench<N> bench;
+    const qray::Sphere<N>& shape = bench.storage.spheres.data[0];
+    Double3 centre;
+    double radius;
+
+    void make(Random& random, Regime regime)
+    {
+        radius = random_size(random, regime);
+        centre = random_place(random, regime, radius);
+        auto o = bench.object(qray::scene::Shape::sphere);
+        o.a = centre;
+        o.ra = radius;
+        bench.build(o);
+    }
+    qray::Ray<N> aim(Random& random, Regime regime) const
+    {
+        using namespace qray::scene;
+        if (regime == Regime::grazing) {
+            const Double3 n = direction(random);
+            return ray_along<N>(random, centre + n * (radius * random.in(0.999, 1.001)), across(random, n));
+        }
+        return ray_at<N>(random, regime, centre + in_ball(random, 1.5 * radius));
+    }
+    template <class R>
+    Meetings<R> meet(const qray::Ray<N>& ray) const
+    {
+        const Vec3<R> d = exact3<R>(ray.direction), v = exact3<R>(shape.centre) - exact3<R>(ray.origin);
+        const R r = exact<R>(shape.radius) / R(1 << shape.fine), d2 = dot(d, d), b = dot(v, d) / d2;
+        const Vec3<R> p = v - d * b;
+        const R rest = r * r - dot(p, p);
+        Meetings<R> m;
+        if (rest < 0)
+            return m;
+        const R half = root(rest / d2);
+        m.add(b - half, r);
+        m.add(b + half, r);
+        return m;
+    }
+    // How far a point lies outside.
+    Wide outside(const Vec3<Wide>& p) const
+    {
+        return length(p - exact3<Wide>(shape.centre)) - exact<Wide>(shape.radius) / Wide(1 << shape.fine);
+    }
+};
+
+template <class N>
+struct DiscTrial {
+    static constexpr const char* name = "disc";
+    static constexpr bool curved = false;
+    static constexpr Effects effects = [] {
+        Effects e;
+        e.disc = true;
+        return e;
+    }();
+    Bench<N> bench;
+    const qray::Disc<N>& shape = bench.storage.discs.data[0];
+    Double3 centre, normal;
+    double radius;
+    double beyond = 1.5; // rays are aimed within that many radii
+
+    void make(Random& random, Regime regime)
+    {
+        radius = random_size(random, regime);
+        centre = random_place(random, regime, 1.5 * radius);
+        normal = direction(random);
+        auto o = bench.object(qray::scene::Shape::disc);
+        o.a = centre;
+        o.b = normal;
+        o.ra = radius;
+        bench.build(o);
+    }
+    qray::Ray<N> aim(Random& random, Regime regime) const
+    {
+        using namespace qray::scene;
+        const Double3 side = across(random, normal);
+        if (regime != Regime::grazing)
+            return ray_at<N>(random, regime, centre + side * (beyond * radius * std::sqrt(random.unit())));
+        if (random.chance(0.5)) {
+            Double3 d = direction(random);
+            return ray_along<N>(random, centre + side * (radius * random.in(0.999, 1.001)), d);
+        }
+        const Double3 d = unit(across(random, normal) + normal * random.in(-1e-3, 1e-3));
+        return ray_along<N>(random, centre + side * (beyond * radius * std::sqrt(random.unit())), d);
+    }
+    template <class R>
+    Meetings<R> meet(const qray::Ray<N>& ray) const
+    {
+        const Vec3<R> d = exact3<R>(ray.direction), v = exact3<R>(shape.centre) - exact3<R>(ray.origin);
+        const Vec3<R> n = exact3<R>(shape.normal);
+        const R den = dot(d, n);
+        Meetings<R> m;
+        if (den == 0)
+            return m;
+        const R t = dot(v, n) / den;
+        m.add(t, exact<R>(shape.radius) - length(d * t - v));
+        return m;
+    }
+    Wide outside(const Vec3<Wide>& p) const
+    {
+        return dot(p - exact3<Wide>(shape.centre), exact3<Wide>(shape.normal));
+    }
+};
+
+// A plane is a disc that fills the world.
+template <class N>
+struct PlaneTrial : DiscTrial<N> {
+    static constexpr const char* name = "plane";
+    void make(Random& random, Regime)
+    {
+        using namespace qray::scene;
+        const Double3 n = direction(random);
+        const double height = random.in(-40, 40);
+        this->beyond = 0.99;
+        this->radius = std::sqrt((world - 0.25) * (world - 0.25) - height * height);
+        this->centre = n * height;
+        this->normal = n;
+        auto o = this->bench.object(Shape::plane);
+        o.a = this->centre + across(random, n) * random.in(0, 30);
+        o.b = n;
+        this->bench.build(o);
+    }
+    qray::Ray<N> aim(Random& random, Regime regime) const
+    {
+        using namespace qray::scene;
+        if (regime == Regime::ordinary)
+            return ray_at<N>(random, regime, in_ball(random, world));
+        if (regime == Regime::small_far) // from close by to far away
+        {
+            const Double3 n = this->normal;
+            const Double3 from = this->centre + across(random, n) * random.in(0, this->radius * 0.7)
+                + n * random.logarithmic(0.001, 1);
+            return free_ray<N>(random, from, across(random, n) * 30 - n * random.logarithmic(0.001, 1));
+        }
+        return DiscTrial<N>::aim(random, regime);
+    }
+};
+
+template <class N>
+struct ConeTrial {
+    static constexpr const char* name = "cone";
+    static constexpr bool curved = true;
+    static constexpr Effects effects = [] {
+        Effects e;
+        e.cone = true;
+        return e;
+    }();
+    Bench<N> bench;
+    const qray::Cone<N>& shape = bench.storage.cones.data[0];
+    Double3 base, axis;
+    double height, ra, rb;
+
+    void make(Random& random, Regime regime)
+    {
+        const double s = random_size(random, regime);
+        make(random, regime, s * random.in(0.2, 1), s * random.in(0.2, 1), random.below(4));
+    }
+    void make(Random& random, Regime regime, double a, double half, uint32_t kind)
+    {
+        ra = a;
+        rb = kind == 0 ? 0 : kind == 1 ? a * random.in(0.999, 1.001) : a * random.unit();
+        height = 2 * half;
+        place(random, regime);
+    }
+    void place(Random& random, Regime regime)
+    {
+        using namespace qray::scene;
+        const double bound = std::sqrt(height * height / 4 + std::fmax(ra, rb) * std::fmax(ra, rb));
+        axis = direction(random);
+        base = random_place(random, regime, bound + 0.1) - axis * (height / 2);
+        auto o = bench.object(Shape::cone);
+        o.a = base;
+        o.b = base + axis * height;
+        o.ra = ra;
+        o.rb = rb;
+        bench.build(o);
+    }
+    qray::Ray<N> aim(Random& random, Regime regime) const
+    {
+        using namespace qray::scene;
+        const Double3 side = across(random, axis);
+        const double share = random.unit(), r = ra + (rb - ra) * share;
+        const Double3 centre = base + axis * (height * share);
+        if (regime != Regime::grazing)
+            return ray_at<N>(random, regime, centre + side * (1.5 * (r + 0.1 * ra) * std::sqrt(random.unit())));
+        // Near a tangent plane: through it, and a half of the time close to a generator too.
+        const double growth = (rb - ra) / height;
+        const Double3 generator = unit(axis + side * growth), sideways = cross(axis, side);
+        const Double3 d = random.chance(0.5) ? unit(generator + sideways * random.in(-1e-2, 1e-2) + side * random.in(-1e-3, 1e-3))
+                                             : unit(sideways + generator * random.in(-2, 2));
+        return ray_along<N>(random, centre + side * (r * random.in(0.999, 1.001)), random.chance(0.5) ? d : d * -1);
+    }
+    template <class R>
+    Meetings<R> meet(const qray::Ray<N>& ray) const
+    {
+        Vec3<R> a = exact3<R>(shape.axis);
+        a = a * (1 / length(a));
+        const R c = exact<R>(shape.cosine), s = exact<R>(shape.sine);
+        const Vec3<R> d = exact3<R>(ray.direction), v = exact3<R>(shape.middle) - exact3<R>(ray.origin);
+        const R b = dot(v, d) / dot(d, d);
+        const Vec3<R> o = d * b - v;
+        const R oz = dot(o, a), dz = dot(d, a), scale = R(1 << shape.fine);
+        const R rho = exact<R>(shape.rho0) / scale + s * oz;
+        const Vec3<R> op = o - a * oz, dp = d - a * dz;
+        const R aa = c * c * dot(dp, dp) - s * s * dz * dz, bb = c * c * dot(op, dp) - rho * s * dz;
+        const R cc = c * c * dot(op, op) - rho * rho, disc = bb * bb - aa * cc;
+        Meetings<R> m;
+        if (disc < 0)
+            return m;
+        const R q = bb < 0 ? root(disc) - bb : -(root(disc) + bb), half = exact<R>(shape.half) / scale;
+        // Both nappes: the rims leave one.
+        if (aa != 0)
+            m.add(b + q / aa, half - size(oz + q / aa * dz));
+        if (q != 0)
+            m.add(b + cc / q, half - size(oz + cc / q * dz));
+        m.sort();
+        return m;
+    }
+    Wide outside(const Vec3<Wide>& p) const
+    {
+        Vec3<Wide> a = exact3<Wide>(shape.axis);
+        a = a * (1 / length(a));
+        const Vec3<Wide> w = p - exact3<Wide>(shape.middle);
+        const Wide z = dot(w, a);
+        return exact<Wide>(shape.cosine) * length(w - a * z)
+            - (exact<Wide>(shape.rho0) / Wide(1 << shape.fine) + exact<Wide>(shape.sine) * z);
+    }
+};
+
+template <class N>
+struct CylinderTrial : ConeTrial<N> {
+    static constexpr const char* name = "cylinder";
+    void make(Random& random, Regime regime)
+    {
+        const double s = random_size(random, regime);
+        this->ra = this->rb = s * random.in(0.1, 1);
+        this->height = 2 * s * random.in(0.2, 1);
+        this->place(random, regime);
+    }
+};
+
+// Random star-shaped figures in a plane, most of them concave.
+struct Figure {
+    Double3 centre, normal, e1, e2;
+    double size;
+    uint32_t count;
+    Double3 corners[16];
+
+    void make(Random& random, Regime regime, uint32_t n)
+    {
+        using namespace qray::scene;
+        size = random_size(random, regime);
+        centre = random_place(random, regime, size);
+        normal = direction(random);
+        e1 = across(random, normal);
+        e2 = cross(normal, e1);
+        count = n;
+        double angle[16];
+        for (uint32_t i = 0; i < count; i++)
+            angle[i] = (i + random.in(0.05, 0.95)) * (2 * M_PI / count);
+        const double squash = regime == Regime::needle ? random.logarithmic(1e-5, 1) : 1;
+        for (uint32_t i = 0; i < count; i++) {
+            const double r = size * (count == 3 ? 1 : random.in(0.2, 1));
+            corners[i] = centre + e1 * (r * std::cos(angle[i])) + e2 * (r * squash * std::sin(angle[i]));
+        }
+    }
+    template <class N>
+    qray::Ray<N> aim(Random& random, Regime regime) const
+    {
+        using namespace qray::scene;
+        const uint32_t i = random.below(count);
+        const double share = random.unit();
+        const Double3 edge = corners[i] + (corners[(i + 1) % count] - corners[i]) * share;
+        const Double3 inside = edge + (centre - edge) * random.in(-0.3, 1);
+        if (regime == Regime::ordinary || regime == Regime::small_far)
+            return ray_at<N>(random, regime, inside);
+        if (random.chance(0.5))
+            return ray_along<N>(random, edge + (centre - edge) * random.in(-1e-3, 1e-3), direction(random));
+        return ray_along<N>(random, inside, unit(across(random, normal) + normal * random.in(-1e-3, 1e-3)));
+    }
+};
+
+// The plane of a figure and the crossing parity of its corners around a line, both as stored.
+template <class R, class N>
+Meetings<R> meet_figure(const qray::Point<N>* corners, uint32_t count, const qray::Direction<N>& normal,
+                        const qray::Ray<N>& ray)
+{
+    const Vec3<R> d = exact3<R>(ray.direction), o = exact3<R>(ray.origin), n = exact3<R>(normal);
+    Meetings<R> m;
+    if (dot(d, n) == 0)
+        return m;
+    const R t = dot(exact3<R>(corners[0]) - o, n) / dot(d, n);
+    // Across the ray, in its own length.
+    const R ax = size(d.x), ay = size(d.y), az = size(d.z);
+    const auto turned = [&](const Vec3<R>& v) {
+        return ax >= ay && ax >= az ? Vec3<R>{v.y, v.z, v.x} : ay >= az ? Vec3<R>{v.z, v.x, v.y} : v;
+    };
+    const Vec3<R> e = turned(d);
+    Vec3<R> flat[16];
+    for (uint32_t i = 0; i < count; i++) {
+        const Vec3<R> v = turned(exact3<R>(corners[i]) - o);
+        flat[i] = {v.x * e.z - v.z * e.x, v.y * e.z - v.z * e.y, 0};
+    }
+    bool inside = false;
+    R nearest = 1000;
+    for (uint32_t i = 0; i < count; i++) {
+        const Vec3<R>&a = flat[i], &b = flat[i + 1 == count ? 0 : i + 1];
+        const R area = a.x * b.y - b.x * a.y;
+        if ((a.y > 0) != (b.y > 0) && (b.y > 0 ? area > 0 : area < 0))
+            inside = !inside;
+        const Vec3<R> ab = b - a;
+        const R l2 = dot(ab, ab);
+        R k = l2 > 0 ? -dot(a, ab) / l2 : R(0);
+        k = k < 0 ? R(0) : k > 1 ? R(1) : k;
+        const R distance = length(a + ab * k);
+        nearest = distance < nearest ? distance : nearest;
+    }
+    m.add(t, inside ? nearest : -nearest);
+    return m;
+}
+
+template <class N>
+struct PolygonTrial {
+    static constexpr const char* name = "polygon";
+    static constexpr bool curved = false;
+    static constexpr Effects effects = [] {
+        Effects e;
+        e.polygon = true;
+        return e;
+    }();
+    Bench<N> bench;
+    const qray::Polygon<N>& shape = bench.storage.polygons.data[0];
+    Figure figure;
+
+    void make(Random& random, Regime regime)
+    {
+        do {
+            figure.make(random, regime, 3 + random.below(10));
+            auto o = bench.object(qray::scene::Shape::polygon);
+            o.count = figure.count;
+            for (uint32_t i = 0; i < o.count; i++)
+                bench.from.vertices[i] = figure.corners[i];
+            bench.build(o);
+        } while (bench.storage.polygons.count == 0);
+    }
+    qray::Ray<N> aim(Random& random, Regime regime) const { return figure.aim<N>(random, regime); }
+    template <class R>
+    Meetings<R> meet(const qray::Ray<N>& ray) const
+    {
+        return meet_figure<R, N>(bench.storage.vertices.data, figure.count, shape.normal, ray);
+    }
+    Wide outside(const Vec3<Wide>& p) const
+    {
+        return dot(p - exact3<Wide>(bench.storage.vertices.data[0]), exact3<Wide>(shape.normal));
+    }
+};
+
+template <class N>
+struct PatchTrial {
+    static constexpr const char* name = "patch";
+    static constexpr bool curved = false;
+    static constexpr Effects effects = [] {
+        Effects e;
+        e.patch = true;
+        return e;
+    }();
+    Bench<N> bench;
+    const qray::Patch<N>& shape = bench.storage.patches.data[0];
+    Figure figure;
+
+    void make(Random& random, Regime regime)
+    {
+        using namespace qray::scene;
+        do {
+            figure.make(random, regime, 3);
+            auto o = bench.object(Shape::patch);
+            o.count = 3;
+            for (uint32_t i = 0; i < 3; i++) {
+                bench.from.vertices[i] = figure.corners[i];
+                bench.from.normals[i] = figure.normal + in_ball(random, 0.8);
+            }
+            bench.build(o);
+        } while (bench.storage.patches.count == 0);
+    }
+    qray::Ray<N> aim(Random& random, Regime regime) const { return figure.aim<N>(random, regime); }
+    template <class R>
+    Meetings<R> meet(const qray::Ray<N>& ray) const
+    {
+        return meet_figure<R, N>(bench.storage.vertices.data, 3, shape.normal, ray);
+    }
+    Wide outside(const Vec3<Wide>& p) const
+    {
+        return dot(p - exact3<Wide>(bench.storage.vertices.data[0]), exact3<Wide>(shape.normal));
+    }
+};
+
+} // namespace hostile
