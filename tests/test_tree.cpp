@@ -1,0 +1,126 @@
+// The tree only leaves out what a ray cannot meet: with it and without it every hit is the same.
+#include "scene_helpers.hpp"
+
+namespace {
+
+using namespace qray;
+using namespace qray::test;
+
+template <class N>
+struct TreeTest : ::testing::Test {};
+TYPED_TEST_SUITE(TreeTest, NumberSystems, SystemNames);
+
+constexpr Effects shapes(bool tree)
+{
+    Effects e;
+    e.sphere = e.disc = e.cone = e.polygon = e.patch = true;
+    e.tree = tree;
+    return e;
+}
+
+std::string numbers(std::initializer_list<double> list)
+{
+    std::string text;
+    for (double v : list)
+        text += " " + std::to_string(v);
+    return text;
+}
+
+// `count` objects of all kinds, of the size that lets some be hit and some not; `spread` apart.
+std::string objects(Random& random, int count, double spread, double size)
+{
+    std::string text;
+    for (int i = 0; i < count; i++) {
+        const Vec3 p = random.point(spread), q = p + random.direction() * size, r = p + random.direction() * size;
+        switch (random.bits() % 5) {
+        case 0: text += "s" + numbers({p.x, p.y, p.z, size * random.uniform(0.1, 1)}); break;
+        case 1: text += "disc" + numbers({p.x, p.y, p.z, q.x - p.x, q.y - p.y, q.z - p.z, size}); break;
+        case 2: text += "c" + numbers({p.x, p.y, p.z, size * 0.5, q.x, q.y, q.z, size * 0.25}); break;
+        case 3: text += "p 3" + numbers({p.x, p.y, p.z, q.x, q.y, q.z, r.x, r.y, r.z}); break;
+        default:
+            text += "pp 3" + numbers({p.x, p.y, p.z, 0, 0, 1, q.x, q.y, q.z, 0, 1, 0, r.x, r.y, r.z, 1, 0, 0});
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+template <class N>
+void expect_same_hits(uint64_t seed, int count, double size, int rays)
+{
+    Random random(seed);
+    const double spread = 8;
+    ASSERT_TRUE(loaded<N>("v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3\n" + objects(random, count, spread, size)));
+    const auto with = storage<N>().template view<shapes(true)>();
+    const auto without = storage<N>().template view<shapes(false)>();
+    const double k = value(with.camera.eye.z) / 8 * 1.2;
+    int hits = 0;
+    for (int i = 0; i < rays; i++) {
+        const Vec3 from = random.point(spread * k);
+        // At an object's place, or anywhere.
+        const auto ray = make<N>::ray(from, i % 2 == 0 ? random.direction() : random.point(spread * k) - from);
+        Hit<N> a{}, b{};
+        const bool hit = nearest(with, ray, a);
+        ASSERT_EQ(hit, nearest(without, ray, b)) << count << " objects, ray " << i;
+        hits += hit;
+        if (hit) {
+            ASSERT_EQ(value(a.t), value(b.t)) << count << " objects, ray " << i;
+            ASSERT_TRUE(a.tag == b.tag);
+            ASSERT_EQ(a.index, b.index);
+        }
+        const auto distance = make<N>::length(random.uniform(1, 20));
+        ASSERT_EQ(light_blocked(with, ray, distance), light_blocked(without, ray, distance)) << count << " objects, ray " << i;
+    }
+    EXPECT_GT(hits, 0) << count;
+}
+
+TYPED_TEST(TreeTest, HitsAreTheSameForEveryNumberOfObjects)
+{
+    for (int count = 1; count <= 40; count++)
+        expect_same_hits<TypeParam>(static_cast<uint64_t>(count), count, 4, 300);
+}
+
+TYPED_TEST(TreeTest, HitsAreTheSameAmongManyObjects)
+{
+    expect_same_hits<TypeParam>(1001, 200, 2, 1000);
+    expect_same_hits<TypeParam>(1002, 1500, 0.5, 1000);
+    expect_same_hits<TypeParam>(1003, 5000, 0.25, 300);
+}
+
+TYPED_TEST(TreeTest, HitsAreTheSameAmongTinyObjects)
+{
+    expect_same_hits<TypeParam>(1004, 300, 1, 500);
+    using N = TypeParam;
+    // Balls of a thousandth, each aimed at: none may be lost to the rounding of binary32.
+    Random random(1005);
+    std::string text = "v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3\n";
+    for (int i = 0; i < 400; i++) {
+        const Vec3 p = random.point(8);
+        text += "s" + numbers({p.x, p.y, p.z, 0.001}) + "\n";
+    }
+    ASSERT_TRUE(loaded<N>(text));
+    const auto with = storage<N>().template view<shapes(true)>();
+    for (uint32_t i = 0; i < with.spheres.count; i++) {
+        const Vec3 centre = value(with.spheres[i].centre);
+        const Vec3 from = random.point(30);
+        Hit<N> hit{};
+        ASSERT_TRUE(nearest(with, make<N>::ray(from, centre - from), hit)) << i;
+        EXPECT_LE(value(hit.t), length(centre - from) + 1e-3);
+    }
+}
+
+TYPED_TEST(TreeTest, CoincidentObjectsAreToldApartByTheirPlace)
+{
+    using N = TypeParam;
+    // 100 copies of one ball: the first in the file is hit, whatever the order of the tree.
+    std::string text = "v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3\n s 3 0 0 1\n";
+    for (int i = 0; i < 100; i++)
+        text += "s 0 0 0 1\n disc 0 0 1 0 0 1 1\n";
+    ASSERT_TRUE(loaded<N>(text));
+    const auto with = storage<N>().template view<shapes(true)>();
+    Hit<N> hit{};
+    ASSERT_TRUE(nearest(with, make<N>::ray(value(with.camera.eye), {0, 0, -1}), hit));
+    EXPECT_EQ(hit.tag.place(), 1u);
+}
+
+} // namespace
