@@ -225,7 +225,25 @@ QRAY_INLINE constexpr int32_t rounding_shift(int64_t x)
             return static_cast<int32_t>(low);
         }
     }
+#elif defined(__thumb2__)
+    if constexpr (Shift < 32) {
+        if (!__builtin_is_constant_evaluated()) {
+            uint32_t low = static_cast<uint32_t>(x);
+            const uint32_t high = static_cast<uint32_t>(static_cast<uint64_t>(x) >> 32);
+            __asm__("lsrs %[low], %[low], %[shift]\n\t"
+                    "adc %[low], %[low], %[high], lsl %[up]\n\t"
+                    : [low] "+r"(low)
+                    : [high] "r"(high), [shift] "i"(Shift), [up] "i"(32 - Shift)
+                    : "cc");
+            return static_cast<int32_t>(low);
+        }
+    }
 #endif
+    if constexpr (sizeof(void*) == 4 && Shift < 32) {
+        const uint32_t low = static_cast<uint32_t>(x);
+        const uint32_t high = static_cast<uint32_t>(static_cast<uint64_t>(x) >> 32);
+        return static_cast<int32_t>((high << (32 - Shift)) + (((low >> (Shift - 1)) + 1) >> 1));
+    }
     return static_cast<int32_t>((x + (int64_t{1} << (Shift - 1))) >> Shift);
 }
 
@@ -236,7 +254,7 @@ QRAY_INLINE constexpr int32_t rounding_shift(int64_t x, int shift)
         return static_cast<int32_t>((x + (int64_t{1} << (shift - 1))) >> shift);
     const uint32_t low = static_cast<uint32_t>(x);
     const uint32_t high = static_cast<uint32_t>(static_cast<uint64_t>(x) >> 32);
-    return static_cast<int32_t>((high << (32 - shift)) + (low >> shift) + ((low >> (shift - 1)) & 1));
+    return static_cast<int32_t>((high << (32 - shift)) + (((low >> (shift - 1)) + 1) >> 1));
 }
 
 // The upper 32 bits of a * a.

