@@ -1,0 +1,156 @@
+"""Firmware runs: one `make run` each, at most two at a time, remembered in build/study/cache under a hash of all
+that goes into it, so that what was measured once is not measured again until something changes."""
+
+import concurrent.futures
+import glob
+import hashlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import threading
+import time
+
+CACHE = "build/study/cache"
+# Short names of boards, in the order of tables.
+BOARDS = {"microbit": "M0", "mps2_an385": "M3", "mps2_an386": "M4F", "mps2_an500": "M7F", "rv32_virt": "RV32"}
+OPTIONS = ("SAMPLES", "ADAPTIVE", "DEPTH", "CUTOFF")
+
+
+def fail(text):
+    raise SystemExit(f"{os.path.basename(sys.argv[0])}: {text}")
+
+
+def environment():
+    """Without what an outer make says to its own children."""
+    return {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+
+
+def output_of(*command):
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+
+def numbers():
+    """The number systems, as the command names them."""
+    with open("src/cli/options.hpp") as file:
+        return re.findall(r'"(\w+)"', re.search(r"number_names\[\] = \{(.*?)\}", file.read(), re.S)[1])
+
+
+def tree_hash(*folders):
+    digest = hashlib.sha256()
+    for folder in folders:
+        for path in sorted(glob.glob(folder + "/**", recursive=True)):
+            if path.endswith((".hpp", ".cpp", ".py", ".mk", ".ld")):
+                with open(path, "rb") as file:
+                    digest.update(path.encode() + b"\0" + file.read() + b"\0")
+    return digest.hexdigest()
+
+
+class Inputs:
+    """What every run depends on, read once."""
+
+    def __init__(self):
+        self.sources = tree_hash("include", "src/scene", "src/boards", "src/firmware")
+        self.compilers = {}
+
+    def compiler(self, board):
+        with open(f"src/boards/{board}/board.mk") as file:
+            tools = re.search(r"BOARD_TOOLS\s*:=\s*(\S+)", file.read())[1]
+        if tools not in self.compilers:
+            if shutil.which(tools + "g++") is None:
+                fail(f"BOARD={board} needs {tools}g++; `make deps` installs it")
+            self.compilers[tools] = output_of(tools + "g++", "--version").splitlines()[0]
+        return self.compilers[tools]
+
+
+class Refused(Exception):
+    """The scene does not fit the number system."""
+
+
+class Run:
+    """A firmware and what running it measures; `profile` runs it traced instead."""
+
+    def __init__(self, board, scene, number, size, profile=False, rays=False, **options):
+        self.board, self.scene, self.number, self.size = board, scene, number, size
+        self.profile, self.rays = profile, rays
+        self.options = {k: str(v) for k, v in options.items() if v is not None}
+        assert all(k in OPTIONS for k in self.options)
+        self.result = None
+
+    def describe(self):
+        name = os.path.basename(self.scene).removesuffix(".nff")
+        options = "".join(f" {k.lower()} {v}" for k, v in self.options.items())
+        return f"{BOARDS[self.board]} {self.number} {name} {self.size}{options}{' profile' * self.profile}"
+
+    def key(self, inputs):
+        with open(self.scene, "rb") as file:
+            scene = hashlib.sha256(file.read()).hexdigest()
+        what = [inputs.sources, inputs.compiler(self.board), self.board, scene, self.number, self.size,
+                self.profile, self.rays, sorted(self.options.items())]
+        return hashlib.sha256(json.dumps(what).encode()).hexdigest()[:24]
+
+    def command(self, name):
+        return ["make", "--no-print-directory", "profile" if self.profile else "run", f"BOARD={self.board}",
+                f"SCENE={self.scene}", f"NUMBER={self.number}", f"SIZE={self.size}", f"NAME={name}",
+                f"RAYS={'yes' if self.rays else 'no'}", *(f"{k}={v}" for k, v in self.options.items())]
+
+    def perform(self, inputs):
+        key = self.key(inputs)
+        path = f"{CACHE}/{key}.json"
+        if os.path.exists(path):
+            with open(path) as file:
+                self.result = json.load(file)
+            return
+        name = f"study-{key}"
+        if self.profile:
+            # Its own command would profile the whole program by source line, which takes the longest.
+            import cycles
+            self.result = cycles.measure(self, name)
+        else:
+            self.result = self.measure(self.command(name))
+        for left in glob.glob(f"build/{self.board}/{name}-{self.number}*"):
+            shutil.rmtree(left) if os.path.isdir(left) else os.remove(left)
+        with open(f"{path}.{threading.get_ident()}", "w") as file:
+            json.dump(self.result, file)
+        os.replace(f"{path}.{threading.get_ident()}", path)
+
+    def measure(self, command):
+        done = subprocess.run(command, capture_output=True, text=True, env=environment(), errors="replace")
+        if done.returncode != 0:
+            check = ["build/qray", "compile", self.scene, "-q", "-n", self.number, "-o", "/dev/null"]
+            if subprocess.run(check, capture_output=True).returncode == 1 or "will not fit" in done.stderr:
+                return {"refused": (done.stdout + done.stderr).strip().splitlines()[-1]}
+            fail(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
+        values = {k: float(v) for k, v in re.findall(r"^([\w/]+): ([\d.]+)$", done.stdout, re.M)}
+        return {k: int(v) if v == int(v) else v for k, v in values.items()}
+
+
+def perform(runs, quiet=False, inputs=None):
+    """Measures all, two at a time; shows progress and the time left."""
+    os.makedirs(CACHE, exist_ok=True)
+    inputs = inputs or Inputs()
+    start, done = time.monotonic(), 0
+    todo = [r for r in runs if not os.path.exists(f"{CACHE}/{r.key(inputs)}.json")]
+    for run in runs:
+        if run not in todo:
+            run.perform(inputs)
+    if todo and not quiet:
+        print(f"{len(todo)} firmware runs, {len(runs) - len(todo)} more known", file=sys.stderr, flush=True)
+    jobs = min(2, len(os.sched_getaffinity(0)))
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        waiting = {pool.submit(run.perform, inputs): run for run in todo}
+        try:
+            for future in concurrent.futures.as_completed(waiting):
+                future.result()
+                done += 1
+                left = (time.monotonic() - start) / done * (len(todo) - done)
+                if not quiet:
+                    print(f"{done:4}/{len(todo)}  {left:5.0f} s left  {waiting[future].describe()}",
+                          file=sys.stderr, flush=True)
+        except BaseException:
+            for future in waiting:
+                future.cancel()
+            raise
+    return runs
