@@ -1,0 +1,103 @@
+// The narrow reject may turn away what a ray misses, and never what it meets.
+#include <qray/narrow.hpp>
+
+#include "number_helpers.hpp"
+
+namespace {
+
+using namespace qray;
+using namespace qray::test;
+
+template <class N>
+struct NarrowTest : ::testing::Test {};
+TYPED_TEST_SUITE(NarrowTest, NumberSystems, SystemNames);
+
+// Points anywhere in the world that a builder may fill.
+Vec3 in_world(Random& random)
+{
+    for (;;) {
+        const Vec3 p = random.point(62);
+        if (length(p) <= 62)
+            return p;
+    }
+}
+
+TYPED_TEST(NarrowTest, NoBallThatIsMetIsTurnedAway)
+{
+    using N = TypeParam;
+    using M = make<N>;
+    Random random(110);
+    int met = 0, missed = 0, turned_away = 0, wrong = 0;
+    for (int i = 0; i < 200000; i++) {
+        const auto centre = M::point(in_world(random));
+        const auto radius = M::length(std::exp2(random.uniform(-20, 4)));
+        if (!(radius > N::length_zero))
+            continue;
+        // Aimed to pass at up to two radii, so that many graze.
+        const Vec3 from = in_world(random);
+        const Vec3 aim = value(centre) + random.direction() * (value(radius) * random.uniform(0, 2));
+        const auto ray = M::ray(from, i % 7 == 0 ? from - aim : aim - from);
+        const auto v = real(centre) - real(ray.origin), d = real(ray.direction);
+        const Real along = dot(v, d), rho = length(cross(v, d));
+        const bool meets = rho <= value(radius) && (along >= 0 || length(v) <= value(radius));
+        const bool away = NarrowRay<N>(ray).misses_ball(centre, radius);
+        met += meets;
+        missed += !meets;
+        turned_away += away;
+        wrong += meets && away;
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(met, 50000);
+    EXPECT_LE(turned_away, missed);
+}
+
+TYPED_TEST(NarrowTest, NoPlaneThatIsMetIsTurnedAway)
+{
+    using N = TypeParam;
+    using M = make<N>;
+    Random random(111);
+    int met = 0, wrong = 0;
+    for (int i = 0; i < 200000; i++) {
+        const auto centre = M::point(in_world(random));
+        const auto normal = M::direction(random.direction());
+        const Vec3 from = in_world(random);
+        // Often close to the plane, and nearly along it.
+        const Vec3 n = value(normal);
+        const Vec3 start = i % 3 == 0 ? from - n * (dot(n, from - value(centre)) * (1 - std::exp2(random.uniform(-20, 0)))) : from;
+        Vec3 d = random.direction();
+        if (i % 2 == 0)
+            d = unit(d - n * (dot(n, d) * (1 - std::exp2(random.uniform(-12, 0)))));
+        if (length(start) > 62)
+            continue;
+        const auto ray = M::ray(start, d);
+        const Real num = dot(real(normal), real(centre) - real(ray.origin)), den = dot(real(normal), real(ray.direction));
+        const bool meets = den != 0 && num / den > 0;
+        met += meets;
+        wrong += meets && NarrowRay<N>(ray).misses_plane(centre, normal);
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(met, 50000);
+}
+
+TYPED_TEST(NarrowTest, MostOfWhatIsFarOffIsTurnedAwayWhereItPays)
+{
+    using N = TypeParam;
+    using M = make<N>;
+    Random random(112);
+    int missed = 0, turned_away = 0;
+    for (int i = 0; i < 20000; i++) {
+        const auto centre = M::point(in_world(random));
+        const auto ray = M::ray(in_world(random), random.direction());
+        const auto v = real(centre) - real(ray.origin);
+        if (length(cross(v, real(ray.direction))) < 2)
+            continue;
+        missed++;
+        turned_away += NarrowRay<N>(ray).misses_ball(centre, M::length(1));
+    }
+    if (M::unit_ulp() == 0x1p-30)
+        EXPECT_EQ(turned_away, missed); // a whole length off is far more than 16 bits lose
+    else
+        EXPECT_LE(turned_away, missed);
+}
+
+} // namespace
