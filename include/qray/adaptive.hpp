@@ -1,6 +1,6 @@
-// Adaptive sampling (IMAGE section 5): a pixel is cut in four, and a quarter that stands out from the other three is
-// cut in four in turn. At least 4 samples a pixel, at most 4^levels + 4^(levels - 1) + ... + 4; nothing is kept of them
-// but their sum.
+// Adaptive sampling (IMAGE section 5): a pixel is cut in four, and a quarter that stands out from the other
+// three is cut in four in turn. At least 4 samples a pixel, at most 4 + 4^2 + ... + 4^levels; nothing is kept of
+// them but their sum.
 #pragma once
 
 #include "sampler.hpp"
@@ -47,10 +47,11 @@ struct WeightedSum<N> {
     }
 };
 
-// Is one of four values farther than the threshold from the mean of the other three? 3 times that difference is 4 times
-// the value less the sum of all. Exact in fixed point.
+// Is one of four values farther than the threshold from the mean of the other three? 3 times that difference
+// is 4 times the value less the sum of all. Exact in fixed point.
 template <class N>
-constexpr bool stands_out(typename Sample<N>::Level own, typename Sample<N>::Level sum, typename N::Unit threshold)
+constexpr bool stands_out(typename Sample<N>::Level own, typename Sample<N>::Level sum,
+                          typename N::Unit threshold)
 {
     if constexpr (N::is_fixed) {
         const uint32_t limit = 3 * static_cast<uint32_t>(threshold.raw) >> (N::Unit::frac - 28);
@@ -67,7 +68,7 @@ constexpr Pixel adaptive_pixel(const Scene<N, E>& scene, int32_t x, int32_t y, C
 {
     const int levels = scene.levels.value;
     WeightedSum<N> sum;
-    // The square that is cut: from the pixel's corner its middle is at odd multiples of 2^half, half its edge.
+    // The square that is cut: its middle is odd multiples of 2^half, half its edge, from the pixel's corner.
     int half = levels;
     int32_t u = int32_t{1} << half, v = u;
     // The quarters that wait to be cut: 4 bits for each square around this one, the smallest lowest.
@@ -80,7 +81,8 @@ constexpr Pixel adaptive_pixel(const Scene<N, E>& scene, int32_t x, int32_t y, C
             const Pencil<N> row = scene.camera.row(y + (k & 2 ? v + step : v - step));
             own[k] = sample(scene, row + scene.camera.right * (x + (k & 1 ? u + step : u - step)), count);
         }
-        const Sample<N> all{own[0].r + own[1].r + own[2].r + own[3].r, own[0].g + own[1].g + own[2].g + own[3].g,
+        const Sample<N> all{own[0].r + own[1].r + own[2].r + own[3].r,
+                            own[0].g + own[1].g + own[2].g + own[3].g,
                             own[0].b + own[1].b + own[2].b + own[3].b};
         waiting <<= 4;
         for (int k = 0; k < 4; k++) {

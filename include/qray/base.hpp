@@ -206,6 +206,12 @@ constexpr uint32_t mul_high(uint32_t a, uint32_t b)
     return static_cast<uint32_t>(uint64_t{a} * b >> 32);
 }
 
+// The upper 32 bits of a * b, rounded down. Only where has_wide_multiply.
+QRAY_INLINE constexpr int32_t signed_mul_high(int32_t a, int32_t b)
+{
+    return static_cast<int32_t>((int64_t{a} * b) >> 32);
+}
+
 // x / 2^Shift to the nearest, halves up, for results that fit 32 bits.
 template <int Shift>
 QRAY_INLINE constexpr int32_t rounding_shift(int64_t x)

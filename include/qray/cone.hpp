@@ -94,13 +94,17 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
         t[i] = valid[i] ? b + N::coarse(tau[i], s.fine) : N::length_zero;
     }
     if (leaving == Leaves::inward) {
-        // Inside between the roots where A > 0, and to its end where not; one root is the origin itself.
-        if (!(a > typename N::Cosine{}))
+        // Inside between the roots where A > 0, and to its end where not. The ray begins at one root, so that the other is
+        // the whole chord away: 2 sqrt(D) / A, which knows nothing of the error of B.
+        Length chord{};
+        if (!(a > typename N::Cosine{}) || !N::quotient(root + root, a, k, chord) || chord > s.bound + s.bound)
             return 0;
-        const int end = q > typename N::Moment{} ? 0 : 1;
-        valid[1 - end] = false;
-        if (!(t[end] > N::length_zero))
-            t[end] = N::ulp;
+        t[0] = N::coarse(chord, s.fine);
+        if (!(t[0] > N::length_zero))
+            t[0] = N::ulp;
+        tau[0] = chord - N::fine(b, s.fine);
+        valid[0] = true;
+        valid[1] = false;
     }
     for (int i = 0; i < 2; i++) {
         if (!valid[i])

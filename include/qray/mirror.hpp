@@ -10,12 +10,14 @@ struct Mirror {
     typename N::Unit amount;
 };
 
-// d - 2 (n.d) n. A reflection keeps length: nothing is divided.
+// d - 2 (n.d) n. A reflection keeps length, but for rounding, which must not add up from mirror to mirror.
 template <class N>
 QRAY_INLINE constexpr Direction<N> mirrored(const Direction<N>& d, const Direction<N>& n, typename N::Unit n_d)
 {
     const auto twice = n_d + n_d;
-    return d - scaled<N>(twice, n);
+    Direction<N> out = d - scaled<N>(twice, n);
+    N::sharpen(out.x, out.y, out.z);
+    return out;
 }
 
 } // namespace qray

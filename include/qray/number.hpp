@@ -93,6 +93,7 @@ struct FixedSystem {
     {
         return {(a.raw + (1 << fine >> 1)) >> fine};
     }
+    QRAY_INLINE static constexpr Length fine(Length a, int32_t fine) { return {shift_left(a.raw, fine)}; }
     // At least 2 ulp more than a / 2^fine.
     QRAY_INLINE static constexpr Length coarse_above(Length a, int32_t fine) { return {(a.raw >> fine) + 3}; }
 
@@ -343,6 +344,7 @@ struct FloatSystem {
     QRAY_INLINE static constexpr F saturating_add(F a, F b) { return a + b; }
     QRAY_INLINE static constexpr F fine_sub(F a, F b, int32_t) { return a - b; }
     QRAY_INLINE static constexpr F coarse(F a, int32_t) { return a; }
+    QRAY_INLINE static constexpr F fine(F a, int32_t) { return a; }
     QRAY_INLINE static constexpr F coarse_above(F a, int32_t) { return a; }
     QRAY_INLINE static constexpr F sqrt(F a)
     {

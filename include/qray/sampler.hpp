@@ -33,7 +33,10 @@ struct Sample<N> {
 
     static constexpr Level clamped(Level c, int) { return c > 0 ? (c < 1 ? c : Level(1)) : Level(0); }
     // As above: the 255-fold of a mean of round decimals may end 32 epsilon below a half.
-    static constexpr uint8_t byte(Level v) { return static_cast<uint8_t>(v * 255 + (Level(0.5) + 32 * N::epsilon)); }
+    static constexpr uint8_t byte(Level v)
+    {
+        return static_cast<uint8_t>(v * 255 + (Level(0.5) + 32 * N::epsilon));
+    }
 };
 
 template <class N, Effects E, class Count>
