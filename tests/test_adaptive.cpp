@@ -25,8 +25,8 @@ std::string view(int width, int height)
 {
     char text[200];
     const double x = width / 2.0, y = -height / 2.0;
-    snprintf(text, sizeof text, "v from %g %g 5 at %g %g 0 up 0 1 0 angle %.17g hither 1 resolution %d %d\n", x, y, x, y,
-             std::atan(height / 10.0) * 360 / M_PI, width, height);
+    snprintf(text, sizeof text, "v from %g %g 5 at %g %g 0 up 0 1 0 angle %.17g hither 1 resolution %d %d\n",
+             x, y, x, y, std::atan(height / 10.0) * 360 / M_PI, width, height);
     return text;
 }
 
@@ -34,7 +34,8 @@ std::string view(int width, int height)
 std::string lit(const std::string& colour, double right, double bottom, double left = -9, double top = 9)
 {
     char text[200];
-    snprintf(text, sizeof text, "ambientlight 1 1 1\n material colour %s diffuse 0\n p 4 %g %g 0 %g %g 0 %g %g 0 %g %g 0\n",
+    snprintf(text, sizeof text,
+             "ambientlight 1 1 1\n material colour %s diffuse 0\n p 4 %g %g 0 %g %g 0 %g %g 0 %g %g 0\n",
              colour.c_str(), left, top, left, bottom, right, bottom, right, top);
     return text;
 }
@@ -66,8 +67,8 @@ TYPED_TEST(AdaptiveTest, FlatPixelsTakeFourSamples)
     }
 }
 
-// A pixel that is white up to 0.34 of its width. At each level the two columns of squares around the edge are cut
-// further, for as long as their samples fall on both sides of it.
+// A pixel that is white up to 0.34 of its width. At each level the two columns of squares around the edge are
+// cut further, for as long as their samples fall on both sides of it.
 TYPED_TEST(AdaptiveTest, AnEdgeIsFollowedDownThePixel)
 {
     using N = TypeParam;
@@ -86,8 +87,9 @@ TYPED_TEST(AdaptiveTest, AnEdgeIsFollowedDownThePixel)
     }
 }
 
-// A square in each quarter of a pixel, towards each of its corners: it holds the quarter's centre, one in four of
-// the samples at level 2 and at level 3 each, and the whole square that is cut last. Only what holds it stands out.
+// A square in each quarter of a pixel, towards each of its corners: it holds the quarter's centre, one in
+// four of the samples at level 2 and at level 3 each, and all of the square that is cut last. Only what holds it
+// stands out.
 TYPED_TEST(AdaptiveTest, ASmallSquareIsFoundInEveryQuarter)
 {
     using N = TypeParam;
@@ -102,7 +104,8 @@ TYPED_TEST(AdaptiveTest, ASmallSquareIsFoundInEveryQuarter)
                 uint64_t taken = 0;
                 const Pixel p = pixel<N>(1, 1, &taken);
                 EXPECT_EQ(taken, 4 * levels) << levels << " " << quarter << " " << corner;
-                EXPECT_EQ(p.r, std::floor(255 * coverage[levels - 1] + 0.5)) << levels << " " << quarter << " " << corner;
+                EXPECT_EQ(p.r, std::floor(255 * coverage[levels - 1] + 0.5))
+                    << levels << " " << quarter << " " << corner;
                 EXPECT_EQ(p.g, 0);
                 EXPECT_EQ(p.b, std::floor(255 * coverage[levels - 1] / 2 + 0.5));
             }

@@ -17,8 +17,8 @@ struct Sample {
         const int32_t limit = (int32_t{1} << N::Colour::frac) >> exposure;
         return static_cast<uint32_t>((c.raw < limit ? c.raw : limit) << exposure) << (28 - N::Colour::frac);
     }
-    // The nearest byte, halves up. Colours are often round decimals, whose 255-fold ends on a half: those that rounding
-    // left up to 4 ulp below it count as on it.
+    // The nearest byte, halves up. Colours are often round decimals, whose 255-fold ends on a half: those that
+    // rounding left up to 4 ulp below it count as on it.
     static constexpr uint8_t byte(Level v)
     {
         return static_cast<uint8_t>((wide_mul(v + 4, uint32_t{255}) + (one >> 1)) >> 28);

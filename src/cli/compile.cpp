@@ -19,14 +19,15 @@ void say_origin(const Options& options, const Built& built, char* out, size_t si
     const char* slash = strrchr(options.scene, '/');
     char sampling[64];
     if (settings.levels != 0)
-        snprintf(sampling, sizeof sampling, "adaptive in %u levels from %g", settings.levels, settings.threshold);
+        snprintf(sampling, sizeof sampling, "adaptive in %u levels from %g", settings.levels,
+                 settings.threshold);
     else
         snprintf(sampling, sizeof sampling, "%u sample%s a pixel", settings.grid * settings.grid,
                  settings.grid == 1 ? "" : "s");
     snprintf(out, size, "%s by qray compile: %s, %u x %u pixels, %s, depth %u, cutoff %g",
              scene::ShownName(slash != nullptr ? slash + 1 : options.scene).text,
-             number_names[static_cast<int>(options.number)], built.width, built.height, sampling, settings.depth,
-             settings.cutoff);
+             number_names[static_cast<int>(options.number)], built.width, built.height, sampling,
+             settings.depth, settings.cutoff);
 }
 
 } // namespace
@@ -47,7 +48,9 @@ int compile_main(int argc, char** argv)
         return loaded;
 
     Output output;
-    const auto write = [](void* to, const char* text, size_t size) { return static_cast<Output*>(to)->write(text, size); };
+    const auto write = [](void* to, const char* text, size_t size) {
+        return static_cast<Output*>(to)->write(text, size);
+    };
     scene::Source source(write, &output);
     char origin[512];
     say_origin(options, built, origin, sizeof origin);

@@ -30,7 +30,8 @@ const char* output_name(const Options& options, const char* suffix)
         return "-";
     if (default_output(options.scene, suffix, own, sizeof own))
         return own;
-    bad_options("'%s' is too long a name to make another from; give '-o FILE'", scene::ShownName(options.scene).text);
+    bad_options("'%s' is too long a name to make another from; give '-o FILE'",
+                scene::ShownName(options.scene).text);
     return nullptr;
 }
 
@@ -42,7 +43,8 @@ int load(const Options& options, const char* out, Built& built)
         return 1;
     }
     if (is_scene_file(out))
-        return bad_options("'%s' is the scene itself; give another name with '-o FILE'", scene::ShownName(out).text);
+        return bad_options("'%s' is the scene itself; give another name with '-o FILE'",
+                           scene::ShownName(out).text);
     if (!renderers[static_cast<int>(options.number)]->build(loaded, options.settings, built, error)) {
         fprintf(stderr, "%s: %s\n", scene::ShownName(options.scene).text, error.text);
         return 1;

@@ -5,7 +5,8 @@
 
 namespace qray::cli {
 
-// The output's name: as given, else the scene's with this suffix, else standard output. Null where that is too long.
+// The output's name: as given, else the scene's with this suffix, else standard output. Null, and a message,
+// where that is too long.
 const char* output_name(const Options& options, const char* suffix);
 
 // Reads the scene and builds it for the options' number system. Warns on standard error of what was left out.

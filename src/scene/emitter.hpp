@@ -1,5 +1,5 @@
-// The builder's result as a constexpr header: namespace scene with Number, effects, width, height and scene, for programs
-// that include <qray/qray.hpp>. It holds what the scene calls for and nothing else.
+// The builder's result as a constexpr header: namespace scene with Number, effects, width, height and scene,
+// for programs that include <qray/qray.hpp>. It holds what the scene calls for and nothing else.
 #pragma once
 
 #include <type_traits>
@@ -29,7 +29,7 @@ public:
             out.put("using qray::make_tag; // place in the scene file, material\n");
         out.print("using Number = qray::%s;\n", number_name());
         if constexpr (N::is_fixed)
-            out.print("// Lengths are in 2^-%d, unit vectors and coefficients in 2^-%d, colours of light in 2^-%d.\n",
+            out.print("// Lengths are in 2^-%d, unit vectors and coefficients in 2^-%d, light in 2^-%d.\n",
                       N::Length::frac, N::Unit::frac, N::Colour::frac);
         out.print("\ninline constexpr uint32_t width = %u, height = %u;\n", unsigned{s.camera.width},
                   unsigned{s.camera.height});
@@ -92,33 +92,40 @@ private:
     void tables(F f) const
     {
         constexpr const char* lattice = "colour; x, y, z coordinate: row x, y, z, shift, offset";
-        const auto table = [&f](bool present, const auto& array, const char* type, const char* name, const char* fields) {
+        const auto table = [&f](bool present, const auto& array, const char* type, const char* name,
+                                const char* fields) {
             if (present && array.count != 0)
                 f(array, type, name, fields);
         };
-        table(e.sphere, s.spheres, "Sphere<Number>", "spheres", "centre; radius * 2^fine and its inverse; fine; tag");
+        table(e.sphere, s.spheres, "Sphere<Number>", "spheres",
+              "centre; radius * 2^fine and its inverse; fine; tag");
         table(e.disc, s.discs, "Disc<Number>", "discs", "centre; normal; radius; tag");
         table(e.cone, s.cones, "Cone<Number>", "cones",
-              "middle; across, across, axis; cosine * mean radius, half height, bound, all * 2^fine; cosine, sine; fine; tag");
+              "middle; across, across, axis; cosine * mean radius, half height, bound, all * 2^fine; "
+              "cosine, sine; fine; tag");
         table(e.polygon, s.polygons, "Polygon<Number>", "polygons",
               "normal; middle and radius of a ball around it; first vertex, count; tag");
         table(e.patch, s.patches, "Patch<Number>", "patches",
               "normal; middle and radius of a ball around it; vertices: first, second; tag");
-        table(e.polygon || e.patch, s.vertices, "Point<Number>", "vertices", "corners of polygons and patches");
+        table(e.polygon || e.patch, s.vertices, "Point<Number>", "vertices",
+              "corners of polygons and patches");
         table(e.patch, s.normals, "Direction<Number>", "normals", "shading normals, as many as vertices");
 
         table(true, s.mattes, "Matte<Number>", "mattes", "by material: colour; ambient light; diffuse");
-        table(e.highlight, s.highlights, "Highlight<Number>", "highlights", "by material: amount; shine: whole, fraction");
+        table(e.highlight, s.highlights, "Highlight<Number>", "highlights",
+              "by material: amount; shine: whole, fraction");
         table(e.mirror, s.mirrors, "Mirror<Number>", "mirrors", "by material: amount");
         table(e.transmit || e.see_through, s.transmits, "Transmit<Number>", "transmits",
               "by material: amount; 1 / index of refraction, index");
-        table(e.texture(), s.textures, "TextureRef", "textures", "by material: kind; index into the table of that kind");
+        table(e.texture(), s.textures, "TextureRef", "textures",
+              "by material: kind; index into the table of that kind");
         table(e.checker, s.checkers, "Checker<Number>", "checkers", lattice);
         table(e.stripes, s.stripes, "Stripes<Number>", "stripes", "colour; coordinate");
         table(e.gradient, s.gradients, "Gradient<Number>", "gradients", "colour; coordinate");
         table(e.rings, s.rings, "Rings<Number>", "rings", "colour; x and z coordinate");
         table(e.noise, s.noises, "Noise<Number>", "noises", lattice);
-        table(e.marble, s.marbles, "Marble<Number>", "marbles", "colour; x, y, z coordinate; the one across the veins");
+        table(e.marble, s.marbles, "Marble<Number>", "marbles",
+              "colour; x, y, z coordinate; the one across the veins");
         table(e.wood, s.woods, "Wood<Number>", "woods", "colour; x, y, z coordinate; two across the grain");
         table(e.brick, s.bricks, "Brick<Number>", "bricks", lattice);
 
@@ -171,7 +178,10 @@ private:
     void value(bool v) { out.put(v ? "true" : "false"); }
     void value(float v) { out.number(v); }
     void value(double v) { out.number(v); }
-    void value(Tag v) { out.print("make_tag(%u, %u)", static_cast<unsigned>(v.place()), static_cast<unsigned>(v.material())); }
+    void value(Tag v)
+    {
+        out.print("make_tag(%u, %u)", static_cast<unsigned>(v.place()), static_cast<unsigned>(v.material()));
+    }
     template <class T>
     void value(const Single<T>& v) { list(v.value); }
     template <int F, int B>
@@ -243,7 +253,8 @@ private:
     void value(const TextureRef& v)
     {
         const auto& [kind, index] = v;
-        constexpr const char* names[] = {"none", "checker", "stripes", "gradient", "rings", "noise", "marble", "wood", "brick"};
+        constexpr const char* names[] = {"none",  "checker", "stripes", "gradient", "rings",
+                                         "noise", "marble",  "wood",    "brick"};
         out.print("{qray::TextureKind::%s, %u}", names[static_cast<int>(kind)], unsigned{index});
     }
 

@@ -43,7 +43,7 @@ void Source::comment(const char* text)
     char last = 0;
     for (; *text != 0; text++) {
         const unsigned char c = static_cast<unsigned char>(*text);
-        // A control byte, or UTF-8 for one that turns the direction of writing: U+202A to 202E, U+2066 to 2069.
+        // A control byte, or one that turns the direction of writing: U+202A to 202E, U+2066 to 2069.
         const bool turns = strncmp(text, "\xe2\x80", 2) == 0
             ? static_cast<unsigned char>(text[2]) >= 0xaa && static_cast<unsigned char>(text[2]) <= 0xae
             : strncmp(text, "\xe2\x81", 2) == 0 && static_cast<unsigned char>(text[2]) >= 0xa6

@@ -8,7 +8,7 @@ namespace qray::scene {
 
 class Source {
 public:
-    // write(to, bytes, size) takes the text in blocks; it returns false where it cannot, and is then not called again.
+    // write(to, bytes, size) takes the text in blocks. Where it returns false, it is not called again.
     using Write = bool (*)(void* to, const char* bytes, size_t size);
     Source(Write write, void* to) : write_(write), to_(to) {}
     Source(const Source&) = delete;
