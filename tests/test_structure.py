@@ -1,0 +1,284 @@
+"""What the tracer's headers promise about themselves: what they include and from which floor, that each compiles alone, what
+words are not in them, and what the object code of a render asks of its surroundings: nothing.
+
+Ends with a line `N passed, N failed`; exit status 1 if any failed."""
+
+import concurrent.futures
+import glob
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+HEADERS = os.path.join(ROOT, "include", "qray")
+WARNINGS = ["-Wall", "-Wextra", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Wdouble-promotion", "-Werror"]
+FLAGS = ["-std=c++20", *WARNINGS, "-ffp-contract=off", "-fno-exceptions", "-fno-rtti", "-I" + os.path.join(ROOT, "include")]
+COMPILERS = ["g++", "clang++"]
+
+# DESIGN's table: no header includes one of a higher floor.
+FLOORS = [
+    "base",
+    "fixed math number",
+    "vec ray narrow",
+    "sphere disc cone polygon patch lattice checker stripes gradient rings noise marble wood brick"
+    " material highlight mirror transmit light sun camera",
+    "effects scene tree",
+    "nearest shadow see_through trace",
+    "sampler grid adaptive sink render",
+    "qray",
+]
+FLOOR = {name: floor for floor, names in enumerate(FLOORS) for name in names.split()}
+
+SYSTEMS = ["q32", "Float", "Double"]
+# Where floating point may be spoken of: number systems that are it, square roots for them, bytes from their samples, and the tree,
+# which q32 only uses where there is a floating-point unit.
+FLOATING = {"base", "number", "tree", "sampler"}
+# Beside the compiler's own integer and floating helpers, which have reserved names.
+ALLOWED = re.compile(r"memcpy|memset|memmove|_GLOBAL_OFFSET_TABLE_"
+                     r"|__(mul|div|udiv|mod|umod|divmod|udivmod|ash[lr]|lshr|clz|ctz|popcount|fix|float)\w*[sdt][ifx]\w*\d?$")
+
+results = []
+
+
+def check(name, faults):
+    """faults: a list of what is wrong."""
+    results.append(not faults)
+    if faults:
+        print(f"{name}: FAILED")
+        for fault in faults[:20]:
+            print("    " + fault.rstrip().replace("\n", "\n    "))
+
+
+def names():
+    return sorted(os.path.basename(path)[:-4] for path in glob.glob(os.path.join(HEADERS, "*.hpp")))
+
+
+def source(name):
+    with open(os.path.join(HEADERS, name + ".hpp"), encoding="utf-8") as file:
+        return file.read()
+
+
+def code(name):
+    """The text with comments and strings blanked, lines kept."""
+    def blank(match):
+        return re.sub(r"[^\n]", " ", match.group())
+    return re.sub(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', blank, source(name), flags=re.S)
+
+
+def run(*command):
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=ROOT)
+
+
+def includes(name):
+    """(system headers, own headers)"""
+    found = re.findall(r'^[ \t]*#[ \t]*include[ \t]*(<[^>]*>|"[^"]*")', source(name), re.M)
+    own = [re.sub(r'^[<"](?:qray/)?|\.hpp[>"]$', "", i) for i in found if i.startswith('"') or i.startswith("<qray/")]
+    return [i for i in found if i.startswith("<") and not i.startswith("<qray/")], own
+
+
+def test_includes():
+    check("only <stdint.h> and <stddef.h> are included",
+          [f"{n}.hpp includes {i}" for n in names() for i in includes(n)[0] if i not in ("<stdint.h>", "<stddef.h>")])
+    check("own headers that are included exist",
+          [f"{n}.hpp includes {i}" for n in names() for i in includes(n)[1] if i not in names()])
+    check("every header has its floor", [f"{n}.hpp is in no floor of this test's table" for n in names() if n not in FLOOR]
+          + [f"{n}.hpp is gone" for n in FLOOR if n not in names()])
+    check("no header includes one of a higher floor",
+          [f"{n}.hpp, floor {FLOOR[n]}, includes {i}.hpp, floor {FLOOR[i]}" for n in names() for i in includes(n)[1]
+           if FLOOR.get(i, 0) > FLOOR.get(n, 99)])
+    faults = []
+    for n in names():
+        above, seen = list(includes(n)[1]), set()
+        while above:
+            i = above.pop()
+            if i == n:
+                faults.append(f"{n}.hpp includes itself, by way of others")
+                break
+            if i in names() and i not in seen:
+                seen.add(i)
+                above += includes(i)[1]
+    check("no header includes itself", faults)
+
+
+def test_compile_alone(folder):
+    def compile_one(job):
+        compiler, name = job
+        path = os.path.join(folder, f"{name}.cpp")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(f'#include <qray/{name}.hpp>\n#include <qray/{name}.hpp>\n')
+        result = run(compiler, *FLAGS, "-fsyntax-only", path)
+        return [] if result.returncode == 0 else [f"{compiler} {name}.hpp:\n{result.stdout[:600]}"]
+    for compiler in COMPILERS:
+        if shutil.which(compiler) is None:
+            check(f"{compiler} is there", [f"{compiler} was not found; `make deps` installs it"])
+            continue
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            for name, faults in zip(names(), pool.map(compile_one, [(compiler, n) for n in names()])):
+                check(f"{name}.hpp compiles alone with {compiler}", faults)
+
+
+def lines_with(pattern, only=None):
+    faults = []
+    for name in names():
+        if only is not None and name not in only:
+            continue
+        for number, line in enumerate(code(name).split("\n"), 1):
+            if re.search(pattern, line):
+                faults.append(f"{name}.hpp:{number}: {line.strip()}")
+    return faults
+
+
+def test_words():
+    for word in ["virtual", "new", "delete", "throw", "try", "catch", "dynamic_cast", "typeid", "thread_local", "mutable",
+                 "extern", "alloca", "__builtin_alloca", "malloc", "const_cast", "goto", "union", "std"]:
+        check(f"no header says `{word}`", lines_with(rf"\b{word}\b"))
+    check("no header but base, for vector registers, says `reinterpret_cast`",
+          lines_with(r"\breinterpret_cast\b", set(names()) - {"base"}))
+    # A function (it has an argument list) or a constant; static_assert and static_cast are words of their own.
+    faults = []
+    for name in names():
+        text = code(name)
+        for match in re.finditer(r"\bstatic\b([^;{}=]*)", text):
+            around = text[max(0, text.rfind("\n", 0, match.start())):match.end()]
+            if "constexpr" not in around and "(" not in match.group(1):
+                faults.append(f"{name}.hpp: {around.strip()}")
+    check("everything static is a function or a constant", faults)
+    check("everything inline at namespace scope is a function, or a constant",
+          lines_with(r"^inline (?!constexpr)[^(]*(=|;|\{\s*$)"))
+    literal = r"\b(float|double)\b|(?<![\w.])(\d+\.\d*|\.\d+|\d+)(e[+-]?\d+)?f\b|(?<![\w.])\d+\.\d+|0x[0-9a-fA-F.]+p"
+    check("floating point is left to those who need it", lines_with(literal, set(names()) - FLOATING))
+
+
+def kernel(folder, system, effects="qray::everything(64)"):
+    """A translation unit that draws any scene in one number system."""
+    path = os.path.join(folder, f"kernel_{system}.cpp")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(f"""#include <qray/qray.hpp>
+using N = qray::{system};
+constexpr qray::Effects effects = {effects};
+using Sink = bool (*)(void*, uint32_t, const uint8_t*, uint32_t);
+bool draw(const qray::Scene<N, effects>& scene, uint8_t* buffer, uint32_t rows)
+{{
+    uint32_t sum = 0;
+    const bool done = qray::render<qray::Rgb888>(scene, buffer, rows, [&sum](uint32_t, uint32_t, const uint8_t* bytes, uint32_t size) {{
+        for (uint32_t i = 0; i < size; i++)
+            sum += bytes[i];
+        return sum != 0;
+    }});
+    return qray::render<qray::Rgb565Little>(scene, buffer, rows, [](uint32_t, uint32_t, const uint8_t*, uint32_t) {{ return true; }})
+        && done;
+}}
+""")
+    return path
+
+
+def mutable(path):
+    """Objects in sections that can be written."""
+    found = re.findall(r"^\S+ .{7} (\S+)\s+[0-9a-f]+ (?:\.hidden )?(\S+)$", run("objdump", "-t", path).stdout, re.M)
+    return [f"{name} in {section}" for section, name in found
+            if name != section and re.match(r"\*COM\*|\.bss|\.tbss|\.tdata|\.data(?!\.rel\.ro)", section)]
+
+
+def calls(path):
+    """{function: functions that it calls} of a .ci file: edge: {{ sourcename: "a" targetname: "b" ... }}"""
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    graph = {}
+    for source_name, target in re.findall(r'edge: \{ sourcename: "([^"]*)" targetname: "([^"]*)"', text):
+        graph.setdefault(source_name, set()).add(target)
+    return graph
+
+
+def cycles(graph):
+    """Functions that reach themselves."""
+    found = []
+    for start in graph:
+        reached, above = set(), list(graph[start])
+        while above:
+            at = above.pop()
+            if at not in reached:
+                reached.add(at)
+                above += graph.get(at, ())
+        if start in reached:
+            found.append(start)
+    return found
+
+
+def test_object(folder, system):
+    path = kernel(folder, system)
+    for level in ["-O0", "-O2"]:
+        out = os.path.join(folder, f"{system}{level}.o")
+        result = run("g++", *FLAGS, level, "-fcallgraph-info", "-c", path, "-o", out)
+        if result.returncode != 0:
+            check(f"a render in {system} compiles with g++ {level}", [result.stdout[:2000]])
+            continue
+        check(f"a render in {system} compiles with g++ {level}", [])
+        symbols = [line.split()[-2:] for line in run("nm", out).stdout.splitlines()]
+        undefined = [name for kind, name in symbols if kind in "Uwv" and not ALLOWED.match(name)]
+        check(f"a render in {system}, {level}, refers to nothing outside of itself", undefined)
+        check(f"a render in {system}, {level}, has no mutable data", mutable(out))
+        check(f"a render in {system}, {level}, has no guards, virtual tables or type information",
+              [name for kind, name in symbols if re.match(r"_ZGV|_ZT[VISTC]|__cxa|_Unwind|__gxx", name)])
+        sections = run("objdump", "-h", out).stdout
+        check(f"a render in {system}, {level}, runs nothing before main",
+              re.findall(r"\.(?:pre)?init_array\S*|\.ctors\S*|\.fini_array\S*|\.tdata\S*|\.tbss\S*", sections))
+        graph = calls(out[:-2] + ".ci")
+        check(f"a render in {system}, {level}, has a call graph", [] if len(graph) > 1 else ["it is empty"])
+        check(f"a render in {system}, {level}, does not recurse", cycles(graph))
+        check(f"a render in {system}, {level}, calls nothing by pointer",
+              [f"{a} calls {b}" for a, targets in graph.items() for b in targets if b == "__indirect_call"])
+    if shutil.which("clang++"):
+        result = run("clang++", *FLAGS, "-fsyntax-only", path)
+        check(f"a render in {system} compiles with clang++", [] if result.returncode == 0 else [result.stdout[:2000]])
+
+
+def test_integers_alone(folder):
+    """Without the tree q32 takes no floating-point register: the compiler is forbidden to use one."""
+    path = kernel(folder, "q32", "[] { auto e = qray::everything(64); e.tree = false; return e; }()")
+    result = run("g++", *FLAGS, "-O1", "-mgeneral-regs-only", "-c", path, "-o", os.path.join(folder, "integers.o"))
+    check("a render in q32 without a tree has no floating point", [] if result.returncode == 0 else [result.stdout[:2000]])
+
+
+def test_the_test(folder):
+    """What this script looks for is found where it is."""
+    path = os.path.join(folder, "bad.cpp")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("""#include <stdlib.h>
+int f(int);
+__attribute__((noinline)) int g(int n) { return n < 1 ? 0 : 1 + f(n / 2); }
+__attribute__((noinline)) int f(int n) { return n < 1 ? 0 : 2 * g(n - 1); }
+int counter = 3;
+int* h(int (*p)(int)) { static int* const kept = static_cast<int*>(malloc(8)); counter += p(3); return kept; }
+""")
+    out = os.path.join(folder, "bad.o")
+    run("g++", "-std=c++20", "-O1", "-fno-optimize-sibling-calls", "-fcallgraph-info", "-c", path, "-o", out)
+    symbols = [line.split()[-2:] for line in run("nm", out).stdout.splitlines()]
+    undefined = [name for kind, name in symbols if kind in "U" and not ALLOWED.match(name)]
+    graph = calls(out[:-2] + ".ci")
+    check("an allocation is seen", [] if "malloc" in undefined else [str(undefined)])
+    check("a mutable global is seen", [] if any("counter" in name for name in mutable(out)) else [str(mutable(out))])
+    check("a guard is seen", [] if any(n.startswith("_ZGV") for _, n in symbols) else [str(symbols)])
+    check("a recursion is seen", [] if len(cycles(graph)) == 2 else [str(graph)])
+    check("a call by pointer is seen", [] if any("__indirect_call" in t for t in graph.values()) else [str(graph)])
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        test_the_test(folder)
+        test_includes()
+        test_words()
+        test_compile_alone(folder)
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            jobs = [pool.submit(test_object, folder, system) for system in SYSTEMS]
+            for job in jobs:
+                job.result()
+        test_integers_alone(folder)
+    failed = results.count(False)
+    print(f"{len(results) - failed} passed, {failed} failed")
+    return failed != 0
+
+
+sys.exit(main())
