@@ -87,9 +87,8 @@ TYPED_TEST(AdaptiveTest, AnEdgeIsFollowedDownThePixel)
     }
 }
 
-// A square in each quarter of a pixel, towards each of its corners: it holds the quarter's centre, one in
-// four of the samples at level 2 and at level 3 each, and all of the square that is cut last. Only what holds it
-// stands out.
+// A square in each quarter of a pixel, towards each of its corners: it holds the quarter's centre, one in four
+// samples at level 2 and one in four at level 3, and then all of a square. Only what holds it stands out.
 TYPED_TEST(AdaptiveTest, ASmallSquareIsFoundInEveryQuarter)
 {
     using N = TypeParam;
