@@ -36,13 +36,6 @@ concept HasCorners = requires(const S& s) { s.first; };
 template <class S>
 concept IsCurved = requires(const S& s) { s.fine; };
 
-// The surface that a ray leaves is not met again where it is flat, or where the ray leaves it outward: all are convex.
-template <class S, class N>
-QRAY_INLINE constexpr bool never_again(const S& shape, const Ray<N>& ray)
-{
-    return ray.from == shape.tag && (!IsCurved<S> || ray.outward);
-}
-
 template <class N, Effects E, class S>
 QRAY_INLINE constexpr bool intersect_in(const Scene<N, E>& scene, const S& shape, const Ray<N>& ray,
                                         typename N::Length limit, typename N::Length& t,
@@ -99,7 +92,7 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
     } else {
         const NarrowRay<N> narrow(ray);
         for_each_shape(scene, [&](const auto& shape, Kind kind, uint32_t index) {
-            return !never_again(shape, ray) && !surely_missed(shape, narrow) && f(shape, kind, index);
+            return !surely_missed(shape, narrow) && f(shape, kind, index);
         });
     }
 }
