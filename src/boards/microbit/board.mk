@@ -1,7 +1,7 @@
 # BBC micro:bit V1: nRF51822, Cortex-M0 at 16 MHz, 256 KB flash, 16 KB RAM.
 BOARD_TOOLS    := arm-none-eabi-
 BOARD_CPU      := -mcpu=cortex-m0 -mthumb -mfloat-abi=soft
-BOARD_OPTIMISE := -O2
+BOARD_OPTIMISE := -Os
 BOARD_CORE     := cortex_m
 BOARD_COUNTER  := host_systick
 BOARD_UART     := uart_nrf51
