@@ -212,6 +212,16 @@ QRAY_INLINE constexpr int32_t signed_mul_high(int32_t a, int32_t b)
     return static_cast<int32_t>((int64_t{a} * b) >> 32);
 }
 
+// The upper 32 bits of ax bx + ay by + az bz, up to 3 too low. Only where has_wide_multiply.
+QRAY_INLINE constexpr int32_t high_dot(int32_t ax, int32_t ay, int32_t az, int32_t bx, int32_t by, int32_t bz)
+{
+#if defined(__riscv)
+    return signed_mul_high(ax, bx) + signed_mul_high(ay, by) + signed_mul_high(az, bz);
+#else
+    return static_cast<int32_t>((int64_t{ax} * bx + int64_t{ay} * by + int64_t{az} * bz) >> 32);
+#endif
+}
+
 // x / 2^Shift to the nearest, halves up, for results that fit 32 bits.
 template <int Shift>
 QRAY_INLINE constexpr int32_t rounding_shift(int64_t x)

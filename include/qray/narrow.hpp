@@ -76,28 +76,27 @@ struct NarrowRay<N> {
     QRAY_INLINE constexpr bool misses_ball(const Point<N>& centre, typename N::Length radius) const
     {
         const Point<N> v = centre - ray.origin;
-        const int32_t b = high_dot(v, ray.direction); // 2^-22, up to 3 too low
+        const int32_t b = along(v, ray.direction); // 2^-22, up to 3 too low
         if (b + (radius.raw >> 2) + 8 < 0)            // all behind
             return true;
         // |v|^2 - b^2 in 2^-16: |v|^2 up to 3 too low; b^2, of up to 12 2^-24 (and 128) each, off by up to 13.
         const int32_t b24 = b * 4;
-        const int32_t square = signed_mul_high(v.x.raw, v.x.raw) + signed_mul_high(v.y.raw, v.y.raw)
-            + signed_mul_high(v.z.raw, v.z.raw);
+        const int32_t square = high_dot(v.x.raw, v.y.raw, v.z.raw, v.x.raw, v.y.raw, v.z.raw);
         return square - signed_mul_high(b24, b24) > signed_mul_high(radius.raw, radius.raw) + 20;
     }
 
     QRAY_INLINE constexpr bool misses_plane(const Point<N>& c, const Direction<N>& n) const
     {
-        const int32_t den = high_dot(ray.direction, n);
-        const int32_t num = high_dot(c - ray.origin, n);
+        const int32_t den = along(ray.direction, n);
+        const int32_t num = along(c - ray.origin, n);
         return (num > 0 && den < -3) || (num < -3 && den > 0);
     }
 
 private:
     template <class T>
-    QRAY_INLINE static constexpr int32_t high_dot(const Vec<T>& a, const Direction<N>& d)
+    QRAY_INLINE static constexpr int32_t along(const Vec<T>& a, const Direction<N>& d)
     {
-        return signed_mul_high(a.x.raw, d.x.raw) + signed_mul_high(a.y.raw, d.y.raw) + signed_mul_high(a.z.raw, d.z.raw);
+        return high_dot(a.x.raw, a.y.raw, a.z.raw, d.x.raw, d.y.raw, d.z.raw);
     }
 };
 

@@ -179,15 +179,10 @@ struct FixedSystem {
     }
     static constexpr bool normalise_wide(int64_t x, int64_t y, int64_t z, Unit& ux, Unit& uy, Unit& uz)
     {
-        const uint64_t m = magnitude(x) | magnitude(y) | magnitude(z);
-        const int down = 33 - count_leading_zeros(m);
-        if (down > 0) {
-            const int64_t half = int64_t{1} << (down - 1) >> 1;
-            x = (x + half) >> down;
-            y = (y + half) >> down;
-            z = (z + half) >> down;
-        }
-        return normalise(static_cast<int32_t>(x), static_cast<int32_t>(y), static_cast<int32_t>(z), ux, uy, uz);
+        // To 31 bits: the upper words, joined by what the lower ones hold below them.
+        const uint32_t m = high_magnitude(x) | high_magnitude(y) | high_magnitude(z);
+        const int up = count_leading_zeros(m) - 1;
+        return normalise(top_word(x, up), top_word(y, up), top_word(z, up), ux, uy, uz);
     }
     template <int F>
     static constexpr bool normalise(Wide<F, Bits> x, Wide<F, Bits> y, Wide<F, Bits> z, Unit& ux, Unit& uy, Unit& uz)
@@ -301,6 +296,18 @@ struct FixedSystem {
     }
 
 private:
+    static constexpr uint32_t high_magnitude(int64_t v)
+    {
+        const int32_t high = static_cast<int32_t>(v >> 32);
+        return static_cast<uint32_t>(high ^ (high >> 31));
+    }
+    // The upper 32 bits of v 2^up, for up in [0, 31]; all below 2^31 of v if that is 31.
+    static constexpr int32_t top_word(int64_t v, int up)
+    {
+        const uint32_t high = static_cast<uint32_t>(static_cast<uint64_t>(v) >> 32), low = static_cast<uint32_t>(v);
+        return static_cast<int32_t>((high << up) | (low >> 1 >> (31 - up)));
+    }
+
     // c scale 2^-31, or 2^-32, to the nearest.
     QRAY_INLINE static constexpr Unit narrow_unit(int32_t c, int32_t scale, bool low)
     {
