@@ -22,8 +22,8 @@ COMPILERS = ["g++", "clang++"]
 FLOORS = [
     "base",
     "fixed math number",
-    "vec ray narrow",
-    "sphere disc cone polygon patch lattice checker stripes gradient rings noise marble wood brick"
+    "vec ray narrow plane corners reflection",
+    "sphere disc cone polygon patch lattice value_noise checker stripes gradient rings noise marble wood brick"
     " material highlight mirror transmit light sun camera",
     "effects scene tree",
     "nearest shadow see_through trace",

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "narrow.hpp"
+#include "plane.hpp"
 
 namespace qray {
 
@@ -18,19 +19,6 @@ template <class N>
 QRAY_INLINE constexpr bool surely_missed(const Disc<N>& s, const NarrowRay<N>& narrow)
 {
     return narrow.misses_plane(s.centre, s.normal);
-}
-
-// t = n.(c - o) / n.d, where that is in (0, limit]. A numerator beyond limit times the denominator is
-// turned away before the division, so that no quotient overflows.
-template <class N>
-QRAY_INLINE constexpr bool intersect_plane(typename N::Moment num, typename N::Cosine den,
-                                           typename N::Length limit, typename N::Length& t)
-{
-    constexpr typename N::Moment zero_moment{};
-    constexpr typename N::Cosine zero_cosine{};
-    if (den > zero_cosine ? !(num > zero_moment) : !(num < zero_moment))
-        return false;
-    return N::quotient(num, den, 0, t) && t > N::length_zero && t <= limit;
 }
 
 template <class N>
@@ -49,16 +37,6 @@ QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typena
         if (w.x > r || w.y > r || w.z > r || -w.x > r || -w.y > r || -w.z > r)
             return false;
     return norm2<N>(w) <= r * r;
-}
-
-// Is a crossing of a plane at t before a light at `distance`, and not at it? Measured across the plane, so that a
-// light that lies in it is not blocked however flat the ray.
-template <class N>
-QRAY_INLINE constexpr bool before_light(const Direction<N>& normal, const Ray<N>& ray, typename N::Length t,
-                                        typename N::Length distance)
-{
-    const auto across = N::length((distance - t) * N::unit(dot<N>(ray.direction, normal)));
-    return across > N::light_clearance || -across > N::light_clearance;
 }
 
 template <class N>

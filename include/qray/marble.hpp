@@ -1,7 +1,7 @@
 // Marble: veins across an axis, bent by turbulence (scenes/README.md defines it).
 #pragma once
 
-#include "noise.hpp"
+#include "value_noise.hpp"
 
 namespace qray {
 

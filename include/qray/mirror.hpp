@@ -1,7 +1,7 @@
 // Mirrored rays.
 #pragma once
 
-#include "ray.hpp"
+#include "reflection.hpp"
 
 namespace qray {
 
@@ -9,15 +9,5 @@ template <class N>
 struct Mirror {
     typename N::Unit amount;
 };
-
-// d - 2 (n.d) n. A reflection keeps length, but for rounding, which must not add up from mirror to mirror.
-template <class N>
-QRAY_INLINE constexpr Direction<N> mirrored(const Direction<N>& d, const Direction<N>& n, typename N::Unit n_d)
-{
-    const auto twice = n_d + n_d;
-    Direction<N> out = d - scaled<N>(twice, n);
-    N::sharpen(out.x, out.y, out.z);
-    return out;
-}
 
 } // namespace qray

@@ -1,7 +1,8 @@
 // Smooth patch: one triangle of the fan, with a normal at each corner. Its shading normal is the barycentric blend.
 #pragma once
 
-#include "polygon.hpp"
+#include "corners.hpp"
+#include "narrow.hpp"
 
 namespace qray {
 

@@ -1,15 +1,8 @@
-// Planar polygon, convex or concave, and what smooth patches share with it.
-//
-// Inside or outside is decided by crossing parity in the ray's own frame: each corner is sheared once so that the
-// ray runs along the dominant axis of its direction (after Woop, Benthin, Wald, Watertight Ray/Triangle Intersection,
-// JCGT 2013), and an edge counts where it crosses the half-line y = 0, x > 0. Whether it does depends on
-// nothing but the ray and the two corners, and not on their order: of two polygons that share an edge exactly one
-// owns each ray through it, and a closed mesh has no leak, in every number system. In fixed point the edge
-// function of the sheared corners is exact.
+// Planar polygon, convex or concave.
 #pragma once
 
-#include "disc.hpp"
-#include "ray.hpp"
+#include "corners.hpp"
+#include "narrow.hpp"
 
 namespace qray {
 
@@ -21,112 +14,6 @@ struct Polygon {
     uint32_t first, count;     // corners, in the scene's vertices
     Tag tag;
 };
-
-// A point in the plane across the ray.
-template <class N>
-struct Sheared {
-    typename N::Length x, y;
-};
-
-template <class N>
-struct Shear {
-    int axis; // the dominant axis of the direction: 0, 1, 2
-    typename N::Unit dx, dy, dz; // the direction, that axis last
-
-    constexpr explicit Shear(const Direction<N>& d) : axis(0), dx(d.y), dy(d.z), dz(d.x)
-    {
-        const auto ax = d.x < N::zero ? -d.x : d.x;
-        const auto ay = d.y < N::zero ? -d.y : d.y;
-        const auto az = d.z < N::zero ? -d.z : d.z;
-        if (ay > ax && ay >= az) {
-            axis = 1;
-            dx = d.z;
-            dy = d.x;
-            dz = d.y;
-        } else if (az > ax) {
-            axis = 2;
-            dx = d.x;
-            dy = d.y;
-            dz = d.z;
-        }
-    }
-
-    // v is relative to the ray's origin. One rounding a component; |result| <= |v|.
-    constexpr Sheared<N> operator()(const Point<N>& v) const
-    {
-        const auto z = axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-        const auto x = axis == 0 ? v.y : axis == 1 ? v.z : v.x;
-        const auto y = axis == 0 ? v.z : axis == 1 ? v.x : v.y;
-        return {N::length(x * dz - z * dx), N::length(y * dz - z * dy)};
-    }
-};
-
-// Twice the signed area of (0, a, b).
-template <class N>
-QRAY_INLINE constexpr auto edge(const Sheared<N>& a, const Sheared<N>& b)
-{
-    return a.x * b.y - b.x * a.y;
-}
-
-// Does the edge a-b cross the half-line y = 0, x > 0? The same answer for b-a.
-template <class N>
-QRAY_INLINE constexpr bool crosses(const Sheared<N>& a, const Sheared<N>& b)
-{
-    constexpr auto o = N::length_zero;
-    const bool up = b.y > o;
-    if ((a.y > o) == up)
-        return false;
-    if (a.x <= o && b.x <= o)
-        return false;
-    if (a.x > o && b.x > o)
-        return true;
-    constexpr typename N::Area none{};
-    const auto e = edge<N>(a, b);
-    return up ? e > none : e < none;
-}
-
-// The distance to the plane of a surface that the ray is known to pass through. Where the plane is seen almost
-// edge on its equation says little; the corners' own distances then bound it.
-template <class N, class Corner>
-constexpr bool plane_distance(const Direction<N>& normal, uint32_t count, Corner corner, const Ray<N>& ray,
-                              typename N::Cosine den, typename N::Length limit, typename N::Length& t)
-{
-    typename N::Length near = N::length_max, far = -N::length_max;
-    for (uint32_t i = 0; i < count; i++) {
-        const auto depth = N::length(dot<N>(corner(i), ray.direction));
-        if (depth < near)
-            near = depth;
-        if (depth > far)
-            far = depth;
-    }
-    if (!N::quotient(dot<N>(corner(0), normal), den, 0, t) || t < near)
-        t = near;
-    if (t > far)
-        t = far;
-    return t > N::length_zero && t <= limit;
-}
-
-// Corners are given relative to the ray's origin by corner(i).
-template <class N, class Corner>
-constexpr bool intersect_corners(const Direction<N>& normal, uint32_t count, Corner corner, const Ray<N>& ray,
-                                 typename N::Length limit, typename N::Length& t)
-{
-    const auto den = dot<N>(ray.direction, normal);
-    const bool edge_on = N::nearly_zero(den);
-    if (!edge_on && !intersect_plane<N>(dot<N>(corner(0), normal), den, limit, t))
-        return false;
-    const Shear<N> shear(ray.direction);
-    bool inside = false;
-    Sheared<N> a = shear(corner(count - 1));
-    for (uint32_t i = 0; i < count; i++) {
-        const Sheared<N> b = shear(corner(i));
-        inside = inside != crosses<N>(a, b);
-        a = b;
-    }
-    if (!inside)
-        return false;
-    return !edge_on || plane_distance<N>(normal, count, corner, ray, den, limit, t);
-}
 
 template <class N>
 QRAY_INLINE constexpr bool surely_missed(const Polygon<N>& s, const NarrowRay<N>& narrow)

@@ -1,7 +1,7 @@
 // Wood: growth rings around an axis through the origin, uneven by noise (scenes/README.md defines it).
 #pragma once
 
-#include "noise.hpp"
+#include "value_noise.hpp"
 
 namespace qray {
 
