@@ -215,6 +215,17 @@ QRAY_INLINE constexpr int32_t signed_mul_high(int32_t a, int32_t b)
 // The upper 32 bits of ax bx + ay by + az bz, up to 3 too low. Only where has_wide_multiply.
 QRAY_INLINE constexpr int32_t high_dot(int32_t ax, int32_t ay, int32_t az, int32_t bx, int32_t by, int32_t bz)
 {
+#if defined(__thumb2__)
+    if (!__builtin_is_constant_evaluated()) {
+        int32_t low, high;
+        __asm__("smull %[low], %[high], %[ax], %[bx]\n\t"
+                "smlal %[low], %[high], %[ay], %[by]\n\t"
+                "smlal %[low], %[high], %[az], %[bz]\n\t"
+                : [low] "=&r"(low), [high] "=&r"(high)
+                : [ax] "r"(ax), [ay] "r"(ay), [az] "r"(az), [bx] "r"(bx), [by] "r"(by), [bz] "r"(bz));
+        return high;
+    }
+#endif
 #if defined(__riscv)
     return signed_mul_high(ax, bx) + signed_mul_high(ay, by) + signed_mul_high(az, bz);
 #else
@@ -318,6 +329,17 @@ constexpr uint64_t wide_square(int32_t a)
 // reduced modulo 2^64); the partial sums need not.
 constexpr int64_t wide_dot(int32_t ax, int32_t ay, int32_t az, int32_t bx, int32_t by, int32_t bz)
 {
+#if defined(__thumb2__)
+    if (!__builtin_is_constant_evaluated()) {
+        uint32_t low, high;
+        __asm__("smull %[low], %[high], %[ax], %[bx]\n\t"
+                "smlal %[low], %[high], %[ay], %[by]\n\t"
+                "smlal %[low], %[high], %[az], %[bz]\n\t"
+                : [low] "=&r"(low), [high] "=&r"(high)
+                : [ax] "r"(ax), [ay] "r"(ay), [az] "r"(az), [bx] "r"(bx), [by] "r"(by), [bz] "r"(bz));
+        return static_cast<int64_t>(uint64_t{high} << 32 | low);
+    }
+#endif
     return static_cast<int64_t>(static_cast<uint64_t>(wide_mul(ax, bx))
                                 + static_cast<uint64_t>(wide_mul(ay, by))
                                 + static_cast<uint64_t>(wide_mul(az, bz)));
