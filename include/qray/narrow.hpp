@@ -77,12 +77,12 @@ struct NarrowRay<N> {
     {
         const Point<N> v = centre - ray.origin;
         const int32_t b = along(v, ray.direction); // 2^-22, up to 3 too low
-        if (b + (radius.raw >> 2) + 8 < 0)            // all behind
-            return true;
         // |v|^2 - b^2 in 2^-16: |v|^2 up to 3 too low; b^2, of up to 12 2^-24 (and 128) each, off by up to 13.
         const int32_t b24 = b * 4;
         const int32_t square = high_dot(v.x.raw, v.y.raw, v.z.raw, v.x.raw, v.y.raw, v.z.raw);
-        return square - signed_mul_high(b24, b24) > signed_mul_high(radius.raw, radius.raw) + 20;
+        if (square - signed_mul_high(b24, b24) > signed_mul_high(radius.raw, radius.raw) + 20)
+            return true;
+        return b + (radius.raw >> 2) + 8 < 0; // all behind
     }
 
     QRAY_INLINE constexpr bool misses_plane(const Point<N>& c, const Direction<N>& n) const
