@@ -10,6 +10,7 @@ template <class N, Effects E, class F>
 QRAY_INLINE constexpr void for_each_shape(const Scene<N, E>& scene, F f)
 {
     if constexpr (E.sphere)
+        QRAY_UNROLL
         for (uint32_t i = 0; i < scene.spheres.count; i++)
             if (f(scene.spheres[i], Kind::sphere, i))
                 return;
@@ -60,25 +61,25 @@ QRAY_INLINE constexpr int crossings_in(const Scene<N, E>& scene, const S& shape,
         return crossings(shape, ray, limit);
 }
 
-// Calls f(shape, kind, index) for the shape of that number.
+// Calls f(shape, kind, index) for the shape of that kind and index.
 template <class N, Effects E, class F>
-QRAY_INLINE constexpr bool with_shape(const Scene<N, E>& scene, ShapeId id, F f)
+QRAY_INLINE constexpr bool with_shape(const Scene<N, E>& scene, Kind kind, uint32_t index, F f)
 {
     if constexpr (E.sphere)
-        if (id.kind() == Kind::sphere)
-            return f(scene.spheres[id.index()], Kind::sphere, id.index());
+        if (kind == Kind::sphere)
+            return f(scene.spheres[index], Kind::sphere, index);
     if constexpr (E.disc)
-        if (id.kind() == Kind::disc)
-            return f(scene.discs[id.index()], Kind::disc, id.index());
+        if (kind == Kind::disc)
+            return f(scene.discs[index], Kind::disc, index);
     if constexpr (E.cone)
-        if (id.kind() == Kind::cone)
-            return f(scene.cones[id.index()], Kind::cone, id.index());
+        if (kind == Kind::cone)
+            return f(scene.cones[index], Kind::cone, index);
     if constexpr (E.polygon)
-        if (id.kind() == Kind::polygon)
-            return f(scene.polygons[id.index()], Kind::polygon, id.index());
+        if (kind == Kind::polygon)
+            return f(scene.polygons[index], Kind::polygon, index);
     if constexpr (E.patch)
-        if (id.kind() == Kind::patch)
-            return f(scene.patches[id.index()], Kind::patch, id.index());
+        if (kind == Kind::patch)
+            return f(scene.patches[index], Kind::patch, index);
     return false;
 }
 
@@ -88,7 +89,7 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
                                               [[maybe_unused]] Limit limit, F f)
 {
     if constexpr (E.tree) {
-        walk(scene.tree.value, ray, limit, [&](ShapeId id) { return with_shape(scene, id, f); });
+        walk(scene.tree.value, ray, limit, [&](auto id) { return with_shape(scene, id.kind(), id.index(), f); });
     } else {
         const NarrowRay<N> narrow(ray);
         for_each_shape(scene, [&](const auto& shape, Kind kind, uint32_t index) {
