@@ -34,16 +34,16 @@ RV32 = {"other": 1, "multiply": 1, "long multiply": 2, "divide": 37, "load": 2, 
         "branch, not taken": 1, "branch, taken": 3, "jump": 2, "call": 2, "return": 2}
 TIMINGS = {"microbit": M0, "mps2_an385": M3, "mps2_an386": M4F, "rv32_virt": RV32}
 
+TEXTURES = ["checker", "stripes", "gradient", "rings", "noise", "marble", "wood", "brick"]
 # The step that an instruction belongs to is that of the innermost of these files that it was inlined into. What was
 # inlined into none (arithmetic out of line, the compiler's library) counts for the step that called it.
 STEPS = {
     "camera": "camera", "render": "camera", "grid": "camera", "adaptive": "camera",
-    "sphere": "spheres", "disc": "planes and discs", "cone": "cones", "polygon": "polygons", "patch": "patches",
-    "nearest": "nearest hit", "tree": "nearest hit", "trace": "shading", "highlight": "shading", "light": "shading",
-    "sun": "shading", "mirror": "shading", "transmit": "shading", "shadow": "shadows", "see_through": "shadows",
-    "checker": "textures", "stripes": "textures", "gradient": "textures", "rings": "textures", "noise": "textures",
-    "marble": "textures", "wood": "textures", "brick": "textures", "lattice": "textures",
-    "sampler": "output", "sink": "output", "ppm": "output", "main": "output",
+    "sphere": "spheres", "disc": "discs", "cone": "cones", "polygon": "polygons", "patch": "patches",
+    "nearest": "nearest hit", "tree": "nearest hit", "shadow": "nearest hit", "see_through": "nearest hit",
+    "trace": "shading", "highlight": "shading", "light": "shading", "sun": "shading", "mirror": "shading",
+    "transmit": "shading", "sampler": "output", "sink": "output", "ppm": "output", "main": "output",
+    **{name: name for name in TEXTURES},
 }
 ROOTS = re.compile(r"sqrt|reciprocal|normalise|quotient|div")
 
@@ -139,7 +139,7 @@ def measure(run, name):
     build[build.index("profile")] = "size"
     done = subprocess.run(build, capture_output=True, text=True, env=runs.environment())
     if done.returncode != 0:
-        return {"refused": (done.stdout + done.stderr).strip().splitlines()[-1]}
+        return {"refused": runs.message_of(done)}
     with open(f"src/boards/{run.board}/board.mk") as file:
         settings = dict(re.findall(r"^(\w+)\s*:=\s*(.*)$", file.read(), re.M))
     path = f"build/{run.board}/{name}-{run.number}.elf"
@@ -149,7 +149,8 @@ def measure(run, name):
     start = program.entry("start")
     mine = {a for a in program.code if program.owner(a) not in (start, None)
             and not any(low <= a < high for low, high in host)}
-    step = {a: step_of(chain) for a, chain in chains(settings["BOARD_TOOLS"], path, sorted(mine)).items()}
+    names = chains(settings["BOARD_TOOLS"], path, sorted(mine))
+    step = {a: step_of(chain) for a, chain in names.items()}
     for a in program.code:
         if a not in mine:
             step[a] = "outside"
@@ -170,4 +171,8 @@ def measure(run, name):
             kind = "branch, not taken"
         classes[kind] += number
         cycles += number * cost(run.board, i, kind)
-    return {"instructions": sum(classes.values()), "cycles": cycles, "classes": dict(classes), "steps": dict(steps)}
+    sizes = {k: int(v) for k, v in re.findall(r"^(flash|ram|stack_bound): (\d+)$", done.stdout, re.M)}
+    roots = sum(number for address, number in counts.items() if address in mine and ROOTS.search(
+        chain[0][1] if (chain := names[address]) else program.name(program.owner(address))))
+    return {"instructions": sum(classes.values()), "cycles": cycles, "classes": dict(classes), "steps": dict(steps),
+            "roots": roots, **sizes}

@@ -133,7 +133,7 @@ def main():
             with open(README + ".part", "w") as file:
                 file.write(new)
             os.replace(README + ".part", README)
-    return 0
+    return runs.failures != []
 
 
 if __name__ == "__main__":

@@ -48,6 +48,12 @@ def tree_hash(*folders):
     return digest.hexdigest()
 
 
+def message_of(done):
+    """The first error in what a program said, else its last line."""
+    lines = (done.stdout + done.stderr).strip().splitlines() or ["no message"]
+    return next((line for line in lines if "error:" in line), lines[-1])
+
+
 class Inputs:
     """What every run depends on, read once."""
 
@@ -65,8 +71,8 @@ class Inputs:
         return self.compilers[tools]
 
 
-class Refused(Exception):
-    """The scene does not fit the number system."""
+# Runs that should have worked, as (what, message); their results hold "refused", as of a scene that does not fit.
+failures = []
 
 
 class Run:
@@ -110,19 +116,25 @@ class Run:
             self.result = cycles.measure(self, name)
         else:
             self.result = self.measure(self.command(name))
+        if "refused" in self.result and not self.does_not_fit():
+            failures.append((self.describe(), self.result["refused"]))
+            return
         for left in glob.glob(f"build/{self.board}/{name}-{self.number}*"):
             shutil.rmtree(left) if os.path.isdir(left) else os.remove(left)
         with open(f"{path}.{threading.get_ident()}", "w") as file:
             json.dump(self.result, file)
         os.replace(f"{path}.{threading.get_ident()}", path)
 
+    def does_not_fit(self):
+        """The scene into the number system, or its firmware into the board."""
+        check = ["build/qray", "compile", self.scene, "-q", "-n", self.number, "-o", "/dev/null"]
+        return (subprocess.run(check, capture_output=True).returncode == 1
+                or re.search("will not fit|overflowed|bytes of RAM are free", self.result["refused"]) is not None)
+
     def measure(self, command):
         done = subprocess.run(command, capture_output=True, text=True, env=environment(), errors="replace")
         if done.returncode != 0:
-            check = ["build/qray", "compile", self.scene, "-q", "-n", self.number, "-o", "/dev/null"]
-            if subprocess.run(check, capture_output=True).returncode == 1 or "will not fit" in done.stderr:
-                return {"refused": (done.stdout + done.stderr).strip().splitlines()[-1]}
-            fail(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
+            return {"refused": message_of(done)}
         values = {k: float(v) for k, v in re.findall(r"^([\w/]+): ([\d.]+)$", done.stdout, re.M)}
         return {k: int(v) if v == int(v) else v for k, v in values.items()}
 
@@ -153,4 +165,6 @@ def perform(runs, quiet=False, inputs=None):
             for future in waiting:
                 future.cancel()
             raise
+    for what, message in failures:
+        print(f"failed: {what}: {message}", file=sys.stderr)
     return runs

@@ -1,13 +1,19 @@
 # Measurements; see README.md here.
+#   make study [QUICK=1]        what accuracy costs, here and on the boards: CSV and plots in build/study
+#   make calibrate              measure again what `qray plan` predicts from
 #   make report                 measure again what README.md's tables between markers say, and write them
 STUDY := src/study
 
 # The desktop's part: the command's own kernels.
-MEASURE := build/study/measure
-$(MEASURE): build/obj/$(STUDY)/measure.o $(LIBRARY) $(filter-out %/main.o,$(COMMAND))
+MEASURE := build/study/measure build/study/operations
+build/study/%: build/obj/$(STUDY)/%.o $(filter-out %/main.o,$(COMMAND))
 	@mkdir -p $(@D)
-	@$(CXX) $(OPTIMISE) $(STATIC) $(sort $^) -pthread -o $@
+	@$(CXX) $(OPTIMISE) $(STATIC) $^ -pthread -o $@
 
 report: build/qray $(MEASURE)
 	@$(PYTHON) $(STUDY)/report.py $(REPORT)
-.PHONY: report
+study: build/qray $(MEASURE)
+	@$(PYTHON) $(STUDY)/study.py $(if $(QUICK),quick)
+calibrate: build/qray $(MEASURE)
+	@$(PYTHON) $(STUDY)/calibrate.py
+.PHONY: report study calibrate

@@ -1,0 +1,178 @@
+"""make calibrate: what each of src/cli/counts.hpp's operations costs on each board in each number system, from traces of
+small pictures. Writes src/study/calibration.hpp, from which `qray plan` predicts.
+
+The trace says how many instructions each step of the tracer took (cycles.py), and the desktop how often each operation
+was asked for; the costs of a step's operations are those not below 0 that leave the least squares of differences,
+each as a share of its whole picture, over all scenes."""
+
+import glob
+import os
+import re
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+import cycles  # noqa: E402
+import ladder  # noqa: E402
+import runs  # noqa: E402
+
+OUTPUT = "src/study/calibration.hpp"
+OPERATIONS = "build/study/operations"
+BOARDS = ["microbit", "mps2_an385", "mps2_an386", "rv32_virt"]
+SIZE = "12x9"
+# A number system whose arithmetic is all the compiler's library is the same everywhere: fewer scenes do.
+SCENES = ["floor", "showcase", "glass", "castle", "patches", "materials", "polygons", "phong", "textures", "lights"]
+FEW = SCENES[:5]
+
+# The operations that a step's instructions are shared out to.
+STEPS = {
+    "camera": ["sample", "pixel"], "output": ["sample", "pixel"],
+    "spheres": ["sphere_test", "sphere_ahead", "sphere_met", "sphere_seen"],
+    "discs": ["disc_test", "disc_ahead", "disc_seen"],
+    "cones": ["cone_test", "cone_near", "cone_met", "cone_seen"],
+    "polygons": ["polygon_test", "polygon_ahead", "polygon_corner", "polygon_seen"],
+    "patches": ["patch_test", "patch_ahead", "patch_met", "patch_seen"],
+    "nearest hit": ["ray", "shadow_ray", "test"],
+    "shading": ["ray", "shadow_ray", "hit", "lit", "shine", "shine_square", "shine_fraction", "mirrored",
+                "refracted"],
+    **{texture: [texture] for texture in cycles.TEXTURES},
+}
+
+
+def least_squares(rows, wanted, ridge=1e-5):
+    """x >= 0 that makes |rows x - wanted|^2 least, by coordinate descent; a little ridge shares out what the rows
+    cannot tell apart. Columns are scaled to their largest."""
+    columns = len(rows[0])
+    scale = [max((r[k] for r in rows), default=0) or 1 for k in range(columns)]
+    a = [[r[k] / scale[k] for k in range(columns)] for r in rows]
+    x = [0.0] * columns
+    left = list(wanted)
+    for _ in range(3000):
+        for k in range(columns):
+            square = sum(r[k] * r[k] for r in a) + ridge
+            step = (sum(r[k] * v for r, v in zip(a, left)) - ridge * x[k]) / square
+            step = max(step, -x[k])
+            if step:
+                x[k] += step
+                left = [v - step * r[k] for r, v in zip(a, left)]
+    return [v / s for v, s in zip(x, scale)]
+
+
+def operations(scene):
+    text = runs.output_of(OPERATIONS, scene, SIZE)
+    return {k: float(v) for k, v in re.findall(r"^(\w+): ([\d.]+)$", text, re.M)}
+
+
+def names():
+    """The operations in their order."""
+    with open("src/cli/counts.hpp") as file:
+        return re.findall(r'"(\w+)"', re.search(r"operation_names\[\] = \{(.*?)\};", file.read(), re.S)[1])
+
+
+def memory(board):
+    """Bytes of flash and of RAM, from the linker script."""
+    with open(f"src/boards/{board}/board.ld") as file:
+        found = dict(re.findall(r"(flash|ram)[^:]*:.*?LENGTH\s*=\s*(\d+[KM]?)", file.read(), re.I))
+    unit = {"K": 1024, "M": 1024 * 1024}
+    return [int(found[k].rstrip("KM")) * unit.get(found[k][-1], 1) for k in ("flash", "ram")]
+
+
+def fit(measured, counted):
+    """{operation: instructions} of one board and number system."""
+    cost = {}
+    for step, parts in STEPS.items():
+        rows, wanted = [], []
+        for scene, m in measured.items():
+            rows.append([counted[scene][p] / m["instructions"] for p in parts])
+            wanted.append(m["steps"].get(step, 0) / m["instructions"])
+        for part, value in zip(parts, least_squares(rows, wanted)):
+            cost[part] = cost.get(part, 0) + value
+    return cost
+
+
+def predict(cost, counts):
+    return sum(cost.get(k, 0) * counts[k] for k in counts if not k.startswith("effect_"))
+
+
+# What flash holds beside the scene's tables: a constant, and each of these effects.
+def fit_flash(measured, counted):
+    effects = [k for k in next(iter(counted.values())) if k.startswith("effect_") and k != "effect_tree"]
+    rows = [[1.0] + [counted[s][e] for e in effects] for s in measured]
+    return [v * 1000 for v in least_squares(rows, [m["flash"] / 1000 for m in measured.values()], 1e-3)], effects
+
+
+def main():
+    scenes = [f"scenes/{name}.nff" for name in SCENES]
+    steps = ladder.write("build/study/ladder")
+    scenes += [path for name, path, _ in steps if name in ("shadow", "glass")]
+    counted = {scene: operations(scene) for scene in scenes}
+    plan = {}
+    for board in BOARDS:
+        for number in runs.numbers():
+            for scene in scenes:
+                if number != "double" or os.path.basename(scene).removesuffix(".nff") in FEW:
+                    plan[board, number, scene] = runs.Run(board, scene, number, SIZE, profile=True)
+    runs.perform(list(plan.values()))
+    lines, shares = [], []
+    for board in BOARDS:
+        for number in runs.numbers():
+            measured = {s: plan[board, number, s].result for s in scenes
+                        if (board, number, s) in plan and "refused" not in plan[board, number, s].result}
+            if not measured:
+                continue
+            cost = fit(measured, counted)
+            for scene, m in measured.items():
+                shares.append((abs(predict(cost, counted[scene]) / m["instructions"] - 1), board, number, scene))
+            flash, effects = fit_flash(measured, counted)
+            per = sum(m["cycles"] for m in measured.values()) / sum(m["instructions"] for m in measured.values())
+            stack = max(m["stack_bound"] for m in measured.values())
+            size, ram = memory(board)
+            costs = ", ".join(f"{cost.get(name, 0):.1f}" for name in names())
+            flashes = ", ".join(f"{v:.0f}" for v in flash)
+            lines.append(f'    {{"{board}", "{number}", {size}, {ram}, {per:.3f}, {stack},\n     {{{costs}}},\n'
+                         f"     {{{flashes}}}}},\n")
+    shares.sort()
+    text = f"""// Made by `make calibrate`; not to be edited. Costs of each board and number system: of every operation of
+// src/cli/counts.hpp in instructions, and of every effect in bytes of flash.
+#pragma once
+
+namespace qray::study {{
+
+struct Calibration {{
+    const char* board;
+    const char* number;
+    unsigned flash, ram;  // bytes that the board has
+    double cycles;        // an instruction, modelled
+    unsigned stack;       // bytes, the most of all scenes measured
+    double cost[{len(names())}];
+    double effects[{len(effects) + 1}]; // bytes of flash: of every program, then of each effect
+}};
+
+inline constexpr const char* effect_order[] = {{{", ".join(f'"{e.removeprefix("effect_")}"' for e in effects)}}};
+
+inline constexpr Calibration calibrations[] = {{
+{"".join(lines)}}};
+
+}} // namespace qray::study
+"""
+    text = "\n".join(wrap(line) for line in text.split("\n"))
+    with open(OUTPUT + ".part", "w") as file:
+        file.write(text)
+    os.replace(OUTPUT + ".part", OUTPUT)
+    print(f"{OUTPUT}: {len(lines)} boards and number systems; of the pictures that it was made from it tells the "
+          f"instructions within {100 * shares[len(shares) // 2][0]:.0f} % (median), "
+          f"{100 * shares[-1][0]:.0f} % at worst ({' '.join(shares[-1][1:])})")
+
+
+def wrap(line):
+    out = []
+    while len(line) > 108:
+        at = line.rindex(" ", 0, 108)
+        out.append(line[:at])
+        line = "      " + line[at + 1:]
+    return "\n".join(out + [line])
+
+
+if __name__ == "__main__":
+    main()
+    sys.exit(runs.failures != [])

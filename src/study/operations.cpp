@@ -1,0 +1,37 @@
+// The counts that predictions start from (src/cli/counts.hpp), for calibration.
+//   operations SCENE WxH      one `name: value` a line: its counts, then its effects
+#include "../cli/counts.hpp"
+#include "../cli/input.hpp"
+#include "../scene/builder.hpp"
+#include "../scene/effect_names.hpp"
+
+#include <stdio.h>
+
+namespace {
+
+qray::scene::Description description;
+qray::scene::Storage<qray::Double> storage;
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    using namespace qray;
+    scene::Settings settings;
+    if (argc < 3 || sscanf(argv[2], "%ux%u", &settings.width, &settings.height) != 2) {
+        fputs("usage: operations SCENE WxH\n", stderr);
+        return 2;
+    }
+    scene::Error error;
+    if (!cli::read_scene(argv[1], description, error)
+        || !scene::Builder<Double>(description, settings, storage).build(error)) {
+        fprintf(stderr, "%s\n", error.text);
+        return 1;
+    }
+    const cli::OperationCounts counts = cli::count_operations(description, settings, 1);
+    for (int i = 0; i < cli::operation_count; i++)
+        printf("%s: %.1f\n", cli::operation_names[i], counts.of[i]);
+    for (const scene::EffectName& e : scene::effect_names)
+        printf("effect_%s: %d\n", e.name, storage.effects.*e.effect);
+    return 0;
+}
