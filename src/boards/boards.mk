@@ -21,6 +21,7 @@ FW_STEM := build/$(BOARD)/$(NAME)-$(NUMBER)
 FW_ELF  := $(FW_STEM)$(if $(filter uart,$(OUTPUT)),-uart).elf
 FW_OBJ  := $(FW_ELF:.elf=.obj)
 FW_MAIN ?= src/firmware/main.cpp
+FW_INCLUDE ?= include
 
 FW_SIZE     := $(subst x, ,$(SIZE))
 FW_OPTIONS  := -n $(NUMBER) $(if $(SIZE),-s $(SIZE)) $(if $(SAMPLES),-r $(SAMPLES)) \
@@ -28,8 +29,9 @@ FW_OPTIONS  := -n $(NUMBER) $(if $(SIZE),-s $(SIZE)) $(if $(SAMPLES),-r $(SAMPLE
 FW_DEFINES  := $(if $(SCENE),-DQRAY_SCENE_HEADER='"$(notdir $(FW_STEM)).hpp"',\
     $(if $(SIZE),-DQRAY_WIDTH=$(word 1,$(FW_SIZE)) -DQRAY_HEIGHT=$(word 2,$(FW_SIZE))))
 FW_WARNINGS := -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Werror
-FW_FLAGS    := -std=c++20 $(BOARD_CPU) $(BOARD_OPTIMISE) -g $(FW_WARNINGS) -Iinclude -Isrc -Ibuild/$(BOARD) \
-    -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-unwind-tables \
+FW_FLAGS    := -std=c++20 $(BOARD_CPU) $(BOARD_OPTIMISE) -g $(FW_WARNINGS) \
+    -I$(FW_INCLUDE) -Isrc -Ibuild/$(BOARD) -ffreestanding \
+    -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-unwind-tables \
     -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -ffp-contract=off \
     -fstack-usage -fcallgraph-info=su $(FW_EXTRA)
 FW_LINK     := $(BOARD_CPU) -nostdlib -Wl,--gc-sections,--fatal-warnings \

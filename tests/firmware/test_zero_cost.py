@@ -1,0 +1,139 @@
+"""What a scene does not call for costs nothing: with the header of that effect reduced to bare declarations,
+the firmware is the same, byte for byte. From the top of the repository:
+python3 tests/firmware/test_zero_cost.py"""
+
+import concurrent.futures
+import os
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, "src/boards/common")
+sys.path.insert(0, "tests/firmware")
+import elf  # noqa: E402
+import reduce  # noqa: E402
+
+VIEW = "v from 0 0 5 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 8 6\n"
+LIGHT = {"light": "l 3 4 5\n", "sun": "sun 1 2 3\n"}
+SHAPE = {
+    "sphere": "s 0 0 0 0.5\n",
+    "disc": "disc 0 0 -1  0 0 1  2\n",
+    "cone": "c 1 0 0 0.3  1 1 0 0.1\n",
+    "polygon": "p 4  -1 -1 0  0 -1 0  0 0 0  -1 0 0.1\n",
+    "patch": "pp 3  1 1 0 0 0 1  2 1 0 1 0 1  1 2 0 0 1 1\n",
+}
+TEXTURE = {
+    "checker": "", "stripes": "1 2 0", "gradient": "1 2 0", "rings": "", "noise": "", "marble": "1 2 0",
+    "wood": "1 2 0", "brick": "",
+}
+MATERIAL = {
+    "highlight": "highlight 0.5 shine 3.5", "mirror": "mirror 0.3", "transmit": "transmit 0.4 ior 1.5",
+}
+EFFECTS = [*SHAPE, *TEXTURE, *LIGHT, "shadow", "see_through", *MATERIAL, "grid", "adaptive"]
+# What a scene lacks beside an effect: light comes through surfaces that transmit; samples are taken in one
+# way. No firmware has a tree.
+WITHOUT = {effect: {"adaptive"} for effect in [*EFFECTS, "tree"]} | {"grid": set(), "adaptive": set()}
+WITHOUT["shadow"] |= {"see_through"}
+WITHOUT["see_through"] |= {"transmit"}
+WITHOUT["transmit"] |= {"see_through"}
+FOLDER = "build/zero_cost"
+HEADERS = f"{FOLDER}/include"  # one state of them for all
+
+
+def scene(absent):
+    """A scene that calls for all effects but these, and but what cannot be without them."""
+    shapes = [text for name, text in SHAPE.items() if name not in absent]
+    lights = [text for name, text in LIGHT.items() if name not in absent]
+    parts = [text for name, text in MATERIAL.items() if name not in absent]
+    text = VIEW + "".join(lights) + ("shadows off\n" if "shadow" in absent else "")
+    text += "material colour 0.5 0.6 0.7 diffuse 0.5 " + " ".join(parts) + "\n" + "".join(shapes)
+    for name, axis in TEXTURE.items():
+        if name not in absent:
+            text += f"material colour 0 0 1 texture {name} 1 0 0 0.3 {axis}\n{shapes[0]}"
+    return text
+
+
+def compile_scene(name, absent, include):
+    """Of the tracer's object file what ends in memory, by section, and the names in it; or make's output."""
+    with open(f"{FOLDER}/{name}.nff", "w") as file:
+        file.write(scene(absent))
+    path = f"build/microbit/zero_{name}-q32.obj/main.o"
+    if os.path.exists(path):
+        os.remove(path)
+    sampling = ["SAMPLES=4"] if "grid" not in absent else ["ADAPTIVE=2"] if "adaptive" not in absent else []
+    environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+    result = subprocess.run(
+        ["make", "--no-print-directory", "-o", "build/qray", path, "BOARD=microbit", f"NAME=zero_{name}",
+         f"SCENE={FOLDER}/{name}.nff", f"FW_INCLUDE={include}", *sampling],
+        env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if result.returncode != 0:
+        return result.stdout
+    found = elf.Elf(path)
+    loaded = [(section, found.bytes[offset:offset + size])
+              for section, kind, flags, _, offset, size, _ in found.sections
+              if (flags & 2 and kind != 8) or section.startswith(".rel.")]
+    return [part for part in loaded if "debug" not in part[0]], [symbol for symbol, *_ in found.symbols]
+
+
+def effects_of(name):
+    with open(f"build/microbit/zero_{name}-q32.hpp") as file:
+        return set(re.findall(r"^    \.(\w+) = true", file.read(), re.M))
+
+
+def reduced(effects, name):
+    """A copy of the headers in which those of these effects are reduced."""
+    folder = f"{FOLDER}/{name}"
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(HEADERS, folder)
+    for effect in effects:
+        path = f"{folder}/qray/{effect}.hpp"
+        with open(path) as file:
+            text = file.read()
+        with open(path, "w") as file:
+            file.write(reduce.reduce(text))
+    return folder
+
+
+class ZeroCost(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(FOLDER, ignore_errors=True)
+        shutil.copytree("include", HEADERS)
+
+    def compiled(self, *arguments):
+        result = compile_scene(*arguments)
+        self.assertNotIsInstance(result, str, result)
+        return result
+
+    # Everything but one effect, and what cannot be without it.
+    def test_each_effect(self):
+        def check(effect):
+            absent = {effect} | WITHOUT[effect]
+            whole = self.compiled(effect, absent, HEADERS)
+            self.assertEqual(effects_of(effect) - {"fractional_shine"}, set(EFFECTS) - absent)
+            self.assertEqual(self.compiled(effect, absent, reduced([effect], effect)), whole)
+
+        with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+            for effect, done in [(effect, pool.submit(check, effect)) for effect in WITHOUT]:
+                with self.subTest(effect=effect):
+                    done.result()
+
+    # One ball of one colour, ray cast: none of the others.
+    def test_all_effects_at_once(self):
+        absent = set(EFFECTS) - {"sphere", "light"}
+        whole = self.compiled("least", absent, HEADERS)
+        self.assertEqual(effects_of("least"), {"sphere", "light"})
+        self.assertEqual(self.compiled("least", absent, reduced([*absent, "tree"], "least_reduced")), whole)
+
+    # What a scene does call for cannot be reduced.
+    def test_it_can_fail(self):
+        absent = set(EFFECTS) - {"sphere", "light"}
+        for effect in ("sphere", "light"):
+            self.assertIsInstance(compile_scene("fail", absent, reduced([effect], "fail")), str)
+
+
+if __name__ == "__main__":
+    unittest.main()
