@@ -1,0 +1,118 @@
+# qray draws scenes with integer or floating arithmetic, on a desktop and without an operating system.
+#   make                 build/qray, the command
+#   make render          draw scenes/showcase.nff (or SCENE=...) into build/; needs only g++ and make
+#   make deps            install the Debian packages that the tests need
+#   make test            build and run every test; the last line counts them
+#   make clean           remove build/
+#   make help            this list
+# Switches: NATIVE=1 for this very processor; CXX=clang++; STATIC= where there is no static C library.
+# A folder's own .mk file below adds its commands, with a comment like these, and may add to:
+#   TESTS       programs for `make test` to run, TEST_NEEDS  files that it builds before.
+
+CXX      := $(if $(filter default,$(origin CXX)),g++,$(CXX))
+OPTIMISE ?= -O2
+STATIC   ?= -static
+PYTHON   := python3 -B
+
+WARNINGS := -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Werror
+COMMON   := -std=c++20 $(WARNINGS) -ffp-contract=off -fno-math-errno -Iinclude -Isrc -MMD -MP
+PROGRAM  := -fno-exceptions -fno-rtti
+FLAGS    := $(COMMON) $(OPTIMISE) $(if $(NATIVE),-march=native)
+SANITIZE := $(COMMON) -O1 -g1 -Wno-maybe-uninitialized -fsanitize=address,undefined -fno-sanitize-recover=all
+
+all: build/qray
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.SUFFIXES:
+
+# The command. Linked statically, it starts in 40 thousand instructions instead of two million.
+LIBRARY := $(patsubst %.cpp,build/obj/%.o,$(wildcard src/scene/*.cpp))
+COMMAND := $(patsubst %.cpp,build/obj/%.o,$(wildcard src/cli/*.cpp)) $(LIBRARY)
+
+build/qray: $(COMMAND)
+	@echo "  link $@"
+	@$(CXX) $(OPTIMISE) $(STATIC) $^ -pthread -o $@
+build/obj/src/%.o: src/%.cpp build/obj/flags
+	@echo "  compile $<"
+	@mkdir -p $(@D)
+	@$(CXX) $(FLAGS) $(PROGRAM) -c $< -o $@
+# Rewritten when the flags change, so that everything is compiled again.
+build/obj/flags: FORCE
+	@mkdir -p $(@D)
+	@echo '$(CXX) $(FLAGS) $(STATIC)' | cmp -s - $@ || echo '$(CXX) $(FLAGS) $(STATIC)' > $@
+FORCE:
+
+RENDER  := $(or $(SCENE),scenes/showcase.nff)
+PICTURE := build/$(basename $(notdir $(RENDER))).ppm
+render: build/qray
+	@build/qray $(RENDER) -o $(PICTURE) $(if $(SIZE),-s $(SIZE)) $(if $(SAMPLES),-r $(SAMPLES))
+	@echo "$(PICTURE) is drawn. Look at it with any viewer of pictures (xdg-open, feh, gimp, ...), or make a PNG:"
+	@echo "    pnmtopng $(PICTURE) > $(PICTURE:.ppm=.png)"
+
+# Tests: each tests/test_*.cpp is a program of its own, built twice: as users would, and with sanitizers.
+UNIT    := $(patsubst tests/%.cpp,%,$(wildcard tests/test_*.cpp))
+SCRIPTS := $(wildcard tests/test_*.py tests/test_*.sh tests/*/test_*.py tests/*/test_*.sh)
+TESTS      = $(SCRIPTS) $(addprefix build/sanitized/tests/,$(UNIT)) $(addprefix build/tests/,$(UNIT))
+TEST_NEEDS = build/qray build/sanitized/qray build/oracle $(VARIANTS:%=build/variants/%/qray)
+TEST_LIBS := -lgtest -lgtest_main -lquadmath -pthread
+
+build/tests/%: build/obj/tests/%.o $(LIBRARY)
+	@mkdir -p $(@D)
+	@$(CXX) $(OPTIMISE) $^ $(TEST_LIBS) -o $@
+build/obj/tests/%.o: tests/%.cpp build/obj/flags
+	@echo "  compile $<"
+	@mkdir -p $(@D)
+	@$(CXX) $(FLAGS) -c $< -o $@
+
+SANITIZED := $(patsubst build/%,build/sanitized/%,$(LIBRARY))
+build/sanitized/qray: $(patsubst build/%,build/sanitized/%,$(COMMAND))
+	@$(CXX) -fsanitize=address,undefined $^ -pthread -o $@
+build/sanitized/tests/%: build/sanitized/obj/tests/%.o $(SANITIZED)
+	@mkdir -p $(@D)
+	@$(CXX) -fsanitize=address,undefined $^ $(TEST_LIBS) -o $@
+build/sanitized/obj/%.o: %.cpp build/obj/flags
+	@echo "  compile $< with sanitizers"
+	@mkdir -p $(@D)
+	@$(CXX) $(SANITIZE) -c $< -o $@
+
+# The same command with its q32 made in other ways, for the test that its bytes are the same.
+VARIANTS := g++_-O0 g++_-O3_-march=native clang++_-O0 clang++_-O2 clang++_-O3_-march=native
+build/variants/%/qray: build/variants/%/kernel_q32.o $(filter-out %/kernel_q32.o,$(COMMAND))
+	@$(CXX) $(STATIC) $^ -pthread -o $@
+build/variants/%/kernel_q32.o: src/cli/kernel_q32.cpp build/obj/flags
+	@echo "  compile $< with $(subst _, ,$*)"
+	@mkdir -p $(@D)
+	@$(subst _, ,$*) $(COMMON) $(PROGRAM) -c $< -o $@
+
+build/oracle: tests/oracle/oracle.cpp
+	@echo "  compile $<"
+	@mkdir -p $(@D)
+	@$(CXX) -std=gnu++20 -O2 -pthread $< -o $@
+
+# On all processors, unless make was told how many.
+JOBS = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
+test: | $(filter deps,$(MAKECMDGOALS))
+	@$(MAKE) $(JOBS) -k --no-print-directory test-programs; built=$$?; \
+	    $(PYTHON) tests/run.py $(TESTS) && exit $$built
+test-programs: $(TEST_NEEDS) $(filter build/%,$(TESTS))
+
+PACKAGES := g++ libgtest-dev clang libclang-rt-14-dev gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm \
+    gcc-riscv64-unknown-elf qemu-system-misc valgrind python3 netpbm
+deps:
+	@dpkg -s $(PACKAGES) > /dev/null 2>&1 || { \
+	    root=$$([ $$(id -u) = 0 ] || echo sudo); \
+	    $$root apt-get -qq update && \
+	    $$root env DEBIAN_FRONTEND=noninteractive apt-get -qq -y install --no-install-recommends $(PACKAGES) \
+	        > /dev/null; }
+
+clean:
+	@rm -rf build
+help:
+	@sed -n 's/^#   make/make/p' $(MAKEFILE_LIST)
+
+# Firmware, measurements and long tests: make run, size, profile, report, study, stability, soak, fuzz.
+include $(sort $(wildcard src/*/*.mk tests/*/*.mk))
+
+.PHONY: all render test test-programs deps clean help FORCE
+.SECONDARY:
+-include $(shell find build/obj build/sanitized/obj build/variants -name '*.d' 2> /dev/null)
