@@ -66,6 +66,8 @@ struct FixedSystem {
             return {x.raw * x.raw + y.raw * y.raw + z.raw * z.raw};
     }
 
+    QRAY_INLINE static constexpr Unit absolute(Unit v) { return {v.raw < 0 ? -v.raw : v.raw}; }
+
     // a - b, clamped to the range of Length.
     QRAY_INLINE static constexpr Length saturating_sub(Length a, Length b)
     {
@@ -406,10 +408,18 @@ struct FloatSystem {
         constexpr F limit = sizeof(F) == 4 ? F(1e-5) : F(1e-9);
         return c < limit && c > -limit;
     }
+    QRAY_INLINE static constexpr F absolute(F v)
+    {
+        if constexpr (sizeof(F) == 4)
+            return __builtin_fabsf(v);
+        else
+            return __builtin_fabs(v);
+    }
+
     // How far a new ray starts from the surface it leaves, at a point that lies on it to its own rounding.
     QRAY_INLINE static constexpr F leave(F x, F y, F z)
     {
-        const F ax = x < 0 ? -x : x, ay = y < 0 ? -y : y, az = z < 0 ? -z : z;
+        const F ax = absolute(x), ay = absolute(y), az = absolute(z);
         const F xy = ax > ay ? ax : ay;
         return ((xy > az ? xy : az) * leave_relative + leave_least) * epsilon;
     }
