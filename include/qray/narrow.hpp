@@ -10,6 +10,7 @@ namespace qray {
 
 template <class N>
 struct NarrowRay {
+    static constexpr bool rejects = false;
     constexpr explicit NarrowRay(const Ray<N>&) {}
     constexpr bool misses_ball(const Point<N>&, typename N::Length) const { return false; }
     constexpr bool misses_plane(const Point<N>&, const Direction<N>&) const { return false; }
@@ -18,6 +19,7 @@ struct NarrowRay {
 template <class N>
     requires(N::is_fixed && N::is_wide && !has_wide_multiply)
 struct NarrowRay<N> {
+    static constexpr bool rejects = true;
     // The origin in whole lengths / 2^8, less 1/2 so that a difference shifted down is rounded; the direction in Q14.
     int32_t ox, oy, oz, dx, dy, dz;
 
@@ -69,6 +71,7 @@ private:
 template <class N>
     requires(N::is_fixed && N::is_wide && has_wide_multiply)
 struct NarrowRay<N> {
+    static constexpr bool rejects = true;
     const Ray<N>& ray;
 
     QRAY_INLINE constexpr explicit NarrowRay(const Ray<N>& r) : ray(r) {}

@@ -33,7 +33,7 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
 {
     const Point<N> v = s.centre - ray.origin;
     middle = N::length(dot<N>(v, ray.direction));
-    if constexpr (!Near || !N::is_fixed) {
+    if constexpr (!Near || !NarrowRay<N>::rejects) {
         const auto reach = N::coarse_above(s.radius, s.fine);
         if (middle < -reach)
             return false;
