@@ -282,6 +282,20 @@ TYPED_TEST(ImageTest, ShadowsCanBeTurnedOff)
     expect_shadow<N>(1);
 }
 
+// Light and object in opposite corners of what a number system spans.
+TYPED_TEST(ImageTest, LightFromTheFarCornerIsBlocked)
+{
+    using N = TypeParam;
+    for (double light = 10; light < 200; light *= 1.25) {
+        const std::string text = "v from -20 -30 -30 at -30 -30 -30 up 0 1 0 angle 1 hither 1 resolution 1 1\n ambientlight 0 0 0\n l "
+            + std::to_string(light) + " " + std::to_string(light) + " " + std::to_string(light) + " 1 1 1\n s -30 -30 -30 0.5\n";
+        ASSERT_TRUE(loaded<N>(text + "material\n s 0 0 0 25\n shadows off"));
+        EXPECT_GT(light_at<N>(0, 0).x, 0.5) << light;
+        ASSERT_TRUE(loaded<N>(text + "material\n s 0 0 0 25\n"));
+        EXPECT_EQ(light_at<N>(0, 0), (Vec3{0, 0, 0})) << light;
+    }
+}
+
 TYPED_TEST(ImageTest, LightBehindTheFloorGivesNothing)
 {
     using N = TypeParam;

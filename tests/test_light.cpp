@@ -73,7 +73,7 @@ TYPED_TEST(LightTest, MayStandFarOutside)
 {
     using N = TypeParam;
     using M = make<N>;
-    for (int shift : {1, 4, 9, 20, 30}) {
+    for (int shift : {1, 4, 9, 20, 30, 31}) {
         const double far = std::ldexp(48, shift);
         const auto light = make_light<N>({far, 0, -far}, shift);
         const auto q = M::point(3, -5, 2);
@@ -87,6 +87,25 @@ TYPED_TEST(LightTest, MayStandFarOutside)
             EXPECT_EQ(distance.raw, INT32_MAX); // beyond everything
         else
             EXPECT_NEAR(value(distance), length(v), 3 * M::length_ulp(length(v)));
+    }
+}
+
+// From one corner of the world to the other: 180 lengths, where the largest is 128.
+TYPED_TEST(LightTest, DistanceIsClampedNotWrapped)
+{
+    using N = TypeParam;
+    using M = make<N>;
+    const double reach = N::is_fixed ? value(N::length_max) / 128 * 60 : 60;
+    for (double side : {-1.0, 1.0}) {
+        const auto light = make_light<N>({reach, side * reach, reach}, 0);
+        for (double k : {0.25, 0.5, 0.75}) { // 130, 156 and 182 away
+            Direction<N> l{};
+            typename N::Length distance{};
+            ASSERT_TRUE(towards(light, M::point(-k * reach, -k * side * reach, -k * reach), l, distance));
+            const double exact = std::sqrt(3) * reach * (1 + k), most = value(N::length_max);
+            EXPECT_NEAR(value(distance), std::fmin(exact, most), 4 * M::length_ulp(exact));
+            expect_near(value(l), unit({1, side, 1}), 3 * M::unit_ulp());
+        }
     }
 }
 
