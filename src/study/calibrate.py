@@ -19,6 +19,8 @@ import runs  # noqa: E402
 OUTPUT = "src/study/calibration.hpp"
 OPERATIONS = "build/study/operations"
 BOARDS = ["microbit", "mps2_an385", "mps2_an386", "rv32_virt"]
+# The slower the arithmetic, the smaller the picture that is traced.
+SIZES = {"float": "8x6", "double": "6x4"}
 SIZE = "12x9"
 # A number system whose arithmetic is all the compiler's library is the same everywhere: fewer scenes do.
 SCENES = ["floor", "showcase", "glass", "castle", "patches", "materials", "polygons", "phong", "textures", "lights"]
@@ -58,8 +60,12 @@ def least_squares(rows, wanted, ridge=1e-5):
     return [v / s for v, s in zip(x, scale)]
 
 
-def operations(scene):
-    text = runs.output_of(OPERATIONS, scene, SIZE)
+def size_of(board, number):
+    return SIZE if number == "float" and board == "mps2_an386" else SIZES.get(number, SIZE)
+
+
+def operations(scene, size):
+    text = runs.output_of(OPERATIONS, scene, size)
     return {k: float(v) for k, v in re.findall(r"^(\w+): ([\d.]+)$", text, re.M)}
 
 
@@ -72,7 +78,7 @@ def names():
 def memory(board):
     """Bytes of flash and of RAM, from the linker script."""
     with open(f"src/boards/{board}/board.ld") as file:
-        found = dict(re.findall(r"(flash|ram)[^:]*:.*?LENGTH\s*=\s*(\d+[KM]?)", file.read(), re.I))
+        found = dict(re.findall(r"^ *(flash|ram) .*LENGTH *= *(\d+[KM]?)", file.read(), re.M))
     unit = {"K": 1024, "M": 1024 * 1024}
     return [int(found[k].rstrip("KM")) * unit.get(found[k][-1], 1) for k in ("flash", "ram")]
 
@@ -105,13 +111,14 @@ def main():
     scenes = [f"scenes/{name}.nff" for name in SCENES]
     steps = ladder.write("build/study/ladder")
     scenes += [path for name, path, _ in steps if name in ("shadow", "glass")]
-    counted = {scene: operations(scene) for scene in scenes}
+    counted_at = {(scene, size): operations(scene, size) for scene in scenes for size in {SIZE, *SIZES.values()}}
     plan = {}
-    for board in BOARDS:
-        for number in runs.numbers():
+    for number in runs.numbers():
+        for board in BOARDS:
             for scene in scenes:
                 if number != "double" or os.path.basename(scene).removesuffix(".nff") in FEW:
-                    plan[board, number, scene] = runs.Run(board, scene, number, SIZE, profile=True)
+                    plan[board, number, scene] = runs.Run(board, scene, number,
+                                                                   size_of(board, number), profile=True)
     runs.perform(list(plan.values()))
     lines, shares = [], []
     for board in BOARDS:
@@ -120,6 +127,7 @@ def main():
                         if (board, number, s) in plan and "refused" not in plan[board, number, s].result}
             if not measured:
                 continue
+            counted = {s: counted_at[s, size_of(board, number)] for s in scenes}
             cost = fit(measured, counted)
             for scene, m in measured.items():
                 shares.append((abs(predict(cost, counted[scene]) / m["instructions"] - 1), board, number, scene))

@@ -43,7 +43,7 @@ def name_of(scene):
 def frontier(study, board, path):
     """Accuracy against instructions, a plot for each scene."""
     scenes, width = list(study.scenes), 330
-    out = svg.Svg(60 + len(scenes) * (width + 20), 430)
+    out = svg.Svg(max(60 + len(scenes) * (width + 20), 760), 430)
     rows = [r for r in study.rows if r["board"] == board]
     y_range = range_of([r["total psnr"] for r in rows])
     for k, scene in enumerate(scenes):
@@ -57,7 +57,7 @@ def frontier(study, board, path):
                 steps.append((a, best[i - 1][1]))
             steps.append((a, b))
         steps.append((plot.x.high, best[-1][1]))
-        plot.line(steps, "#223", 1.4)
+        plot.line(steps, "#223", 1.4, keep_clear=True)
         for a, b, r in sorted(points, key=lambda p: any(p[2] is q[2] for q in best)):
             pale = not any(r is q[2] for q in best)
             plot.mark(a, b, SHAPES.get(r["number"], "circle"), colour(r["number"]),

@@ -11,22 +11,13 @@ import sys
 sys.dont_write_bytecode = True
 import ladder  # noqa: E402
 import runs  # noqa: E402
+import text as texts  # noqa: E402
+from text import count, table  # noqa: E402
 
 README = "README.md"
 FOLDER = "build/study"
 # Scenes of the table of boards, and the size that all their firmwares share.
 BOARD_SCENES = {"scenes/floor.nff": "32x24", "scenes/showcase.nff": "16x12"}
-
-
-def table(head, rows):
-    """Markdown; the first column to the left, the others to the right."""
-    lines = ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 1)]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
-
-
-def count(value):
-    """With thin groups: 12 345."""
-    return f"{round(value):,}".replace(",", " ")
 
 
 def boards():
@@ -76,6 +67,7 @@ def effects():
 REPORTS = {
     "boards": (boards, lambda: [f"| {short} | {n} |" for short in runs.BOARDS.values() for n in runs.numbers()]
                + list(BOARD_SCENES)),
+    **texts.REPORTS,
     "effects": (effects, lambda: ["+ " + name for name, *_ in ladder.STEPS[1:]]),
 }
 
@@ -87,9 +79,9 @@ def marker(name):
 def problems(text, reports):
     """What is missing or not known in README's tables."""
     out = []
-    for name in re.findall(r"<!-- report:(\S+) -->", text):
-        if name not in reports:
-            out.append(f"{README}: there is no report '{name}'")
+    for name, content in re.findall(r"<!-- report:(\S+) -->(.*?)<!-- /report -->", text, re.S):
+        if name not in reports and not content.strip():
+            out.append(f"{README}: report:{name} is empty")
     for name, (_, needs) in reports.items():
         found = marker(name).search(text)
         if found is None:
@@ -101,11 +93,6 @@ def problems(text, reports):
 
 
 def main():
-    try:
-        import study
-        REPORTS.update(study.REPORTS)
-    except ImportError:
-        pass
     text = ""
     if os.path.exists(README):
         with open(README) as file:

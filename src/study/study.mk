@@ -10,7 +10,7 @@ build/study/%: build/obj/$(STUDY)/%.o $(filter-out %/main.o,$(COMMAND))
 	@mkdir -p $(@D)
 	@$(CXX) $(OPTIMISE) $(STATIC) $^ -pthread -o $@
 
-report: build/qray $(MEASURE)
+report: build/qray build/oracle $(MEASURE)
 	@$(PYTHON) $(STUDY)/report.py $(REPORT)
 study: build/qray $(MEASURE)
 	@$(PYTHON) $(STUDY)/study.py $(if $(QUICK),quick)

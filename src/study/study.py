@@ -13,6 +13,7 @@ import subprocess
 import sys
 
 sys.dont_write_bytecode = True
+import calibrate  # noqa: E402
 import figures  # noqa: E402
 import runs  # noqa: E402
 
@@ -22,7 +23,7 @@ DEFAULT = ("q32", "1", 5, 0.0014)
 BOARDS = ["microbit", "mps2_an385", "mps2_an386", "rv32_virt"]
 # Scenes of the boards, and the size of their pictures there.
 SCENES = {"scenes/floor.nff": "32x24", "scenes/glass.nff": "24x18", "scenes/showcase.nff": "24x18"}
-ERROR_SIZE, PROFILE_SIZE = "160x120", "12x9"
+ERROR_SIZE = "160x120"
 ERRORS = ["psnr", "rms", "largest", "off"]
 
 
@@ -138,7 +139,7 @@ class Study:
                 for scene, size in self.scenes.items() for board in BOARDS for setting in self.settings}
         numbers = [n for n in runs.numbers() if n in [s[0] for s in self.settings]]
         first = next(iter(self.scenes))
-        traced = {(scene, board, n): runs.Run(board, scene, n, PROFILE_SIZE, profile=True)
+        traced = {(scene, board, n): runs.Run(board, scene, n, calibrate.size_of(board, n), profile=True)
                   for scene in self.scenes for board in BOARDS for n in numbers
                   if not (n == "double" and scene != first)}
         runs.perform(list(plan.values()) + list(traced.values()), inputs=self.inputs)

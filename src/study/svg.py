@@ -134,8 +134,13 @@ class Plot:
         if y_name:
             svg.text(self.left - 38, (self.top + self.bottom) / 2, y_name, 12, "middle", turn=-90)
 
-    def line(self, points, colour="#223", width=1.5, dash=""):
-        self.svg.line([(self.x(a), self.y(b)) for a, b in points], colour, width, dash)
+    def line(self, points, colour="#223", width=1.5, dash="", keep_clear=False):
+        """With `keep_clear`, one of steps that labels do not cross."""
+        at = [(self.x(a), self.y(b)) for a, b in points]
+        self.svg.line(at, colour, width, dash)
+        if keep_clear:
+            for (x0, y0), (x1, y1) in zip(at, at[1:]):
+                self.taken.append((min(x0, x1) - 1, min(y0, y1) - 1, max(x0, x1) + 1, max(y0, y1) + 1))
 
     def mark(self, a, b, shape, colour, label="", pale=False, size=5.0):
         x, y = self.x(a), self.y(b)

@@ -1,0 +1,131 @@
+"""make study, in its quick form, and the parts of it whose results are known without measuring.
+From the top of the repository: python3 tests/test_study.py"""
+
+import csv
+import os
+import re
+import subprocess
+import sys
+import unittest
+import xml.etree.ElementTree
+import zlib
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, "src/study")
+import calibrate  # noqa: E402
+import figures  # noqa: E402
+import ladder  # noqa: E402
+import report  # noqa: E402
+import study  # noqa: E402
+import svg  # noqa: E402
+
+
+def make(*arguments):
+    environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+    result = subprocess.run(os.environ.get("MAKE", "make").split() + list(arguments), env=environment,
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return result.returncode, result.stdout
+
+
+class Parts(unittest.TestCase):
+    def test_frontier(self):
+        points = [(5, 30), (1, 10), (4, 10), (2, 20), (3, 15), (5, 31), (9, 31)]
+        self.assertEqual(figures.frontier_of(points), [(1, 10), (2, 20), (5, 31)])
+
+    # 3 a + 5 b, exactly; and a cost that would be below 0 is 0.
+    def test_least_squares(self):
+        rows = [(1, 0), (0, 2), (1, 1), (4, 3)]
+        found = calibrate.least_squares(rows, [3 * a + 5 * b for a, b in rows], 0)
+        self.assertAlmostEqual(found[0], 3, 6)
+        self.assertAlmostEqual(found[1], 5, 6)
+        self.assertEqual(calibrate.least_squares([(1, 0), (0, 1)], [2, -1], 0), [2, 0])
+
+    def test_axis(self):
+        axis = svg.Axis(10, 1000, 0, 200, log=True)
+        self.assertAlmostEqual(axis(100), 100)
+        self.assertEqual([round(v) for v, named in axis.ticks() if named], [10, 20, 50, 100, 200, 500, 1000])
+        self.assertEqual([v for v, _ in svg.Axis(0, 10, 0, 1).ticks()], [0, 2, 4, 6, 8, 10])
+
+    def test_png(self):
+        data = svg.png(2, 2, bytes(range(12)))
+        self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+        length = int.from_bytes(data[33:37], "big")
+        self.assertEqual(data[37:41], b"IDAT")
+        self.assertEqual(zlib.decompress(data[41:41 + length]), b"\0\0\1\2\3\4\5\0\6\7\x08\x09\x0a\x0b")
+
+    def test_heat(self):
+        self.assertEqual(figures.difference(bytes([10, 10, 10]), bytes([10, 10, 10])), bytes([0, 0, 0]))
+        self.assertEqual(figures.difference(bytes([10, 10, 10]), bytes([10, 13, 9])), bytes(figures.HEAT[2][1]))
+
+    def test_ladder_says_one_thing_more_in_each_step(self):
+        steps = ladder.write("build/study/ladder")
+        texts = []
+        for _, path, _ in steps:
+            with open(path) as file:
+                texts.append(file.read().split())
+        for (name, _, options), before, after in zip(steps[1:], texts, texts[1:]):
+            words = dict((n, w) for n, w, _ in ladder.STEPS)[name].split()
+            changed = len(after) - len(before)
+            self.assertIn(changed, (len(words), 0), name)
+            self.assertTrue(before != after or options, name)
+
+    def test_report_finds_stale_tables(self):
+        reports = {"one": (None, lambda: ["a", "b"])}
+        self.assertEqual(report.problems("<!-- report:one -->\na b\n<!-- /report -->", reports), [])
+        self.assertEqual(len(report.problems("<!-- report:one -->\na\n<!-- /report -->", reports)), 1)
+        self.assertEqual(len(report.problems("", reports)), 1)
+        self.assertEqual(len(report.problems("<!-- report:one -->\na b\n<!-- /report --> <!-- report:two -->\n"
+                                             "<!-- /report -->", reports)), 1)
+
+    def test_labels_name_what_differs(self):
+        self.assertEqual(study.label(study.DEFAULT), "q32")
+        self.assertEqual(study.label(("float", "4", 5, 0.0014)), "float 4×")
+        self.assertEqual(study.label(("q32", "a2,0.0625", 3, 0.0014)), "a2 depth 3")
+
+
+class Readme(unittest.TestCase):
+    def test_tables_are_whole(self):
+        with open("README.md") as file:
+            self.assertEqual(report.problems(file.read(), report.REPORTS), [])
+
+    def test_figures_are_there(self):
+        with open("README.md") as file:
+            for path in re.findall(r"\]\((src/study/figures/[^)]*)\)", file.read()):
+                xml.etree.ElementTree.parse(path)
+
+
+class Quick(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.status, cls.text = make("study", "QUICK=1")
+
+    def test_runs(self):
+        self.assertEqual(self.status, 0, self.text)
+
+    def test_tables(self):
+        with open("build/study/quick/boards.csv") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(study.BOARDS) * len(study.settings(quick=True)))
+        self.assertEqual({r["board"] for r in rows}, set(study.BOARDS))
+        for r in rows:
+            for name in ("scene", "size", "compiler", "flags", "commit", "error size"):
+                self.assertTrue(r[name], name)
+            # No instruction of these cores takes less than a cycle.
+            self.assertGreaterEqual(float(r["cycles/pixel"]), float(r["instructions/pixel"]))
+        errors = {(r["samples"], r["number"]): float(r["total psnr"]) for r in rows}
+        self.assertGreater(errors["4", "q32"], errors["1", "q32"])
+        with open("build/study/quick/desktop.csv") as file:
+            for r in csv.DictReader(file):
+                if r["number"] == "double":
+                    self.assertEqual((r["arithmetic psnr"], r["arithmetic largest"], r["other objects"]),
+                                     ("99.0", "0.0", "0.0"))
+
+    def test_plots_are_xml(self):
+        for name in ["m0", "m3", "m4f", "rv32", "bits", "samples", "panel"]:
+            path = f"build/study/quick/{name}.svg"
+            xml.etree.ElementTree.parse(path)
+            self.assertLess(os.path.getsize(path), 300_000)
+
+
+if __name__ == "__main__":
+    unittest.main()
