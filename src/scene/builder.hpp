@@ -2,6 +2,8 @@
 // what it calls for, and computes what the tracer would otherwise compute again and again.
 #pragma once
 
+#include <stdio.h>
+
 #include "balls.hpp"
 #include "convert.hpp"
 #include "settings.hpp"
@@ -68,7 +70,8 @@ public:
     // False, and a reason in `error` without a place, where the scene does not fit the number system.
     bool build(Error& error)
     {
-        (void)error;
+        if (!few_enough(error))
+            return false;
         reset();
         frame = fit();
         for (uint32_t i = 0; i < d.vertex_count; i++)
@@ -92,6 +95,20 @@ private:
     Storage<N>& s;
     Frame frame;
     uint32_t place = 0;
+
+    // A tag has room for so many places, but for the one that names no surface.
+    bool few_enough(Error& error) const
+    {
+        uint64_t surfaces = 0;
+        for (uint32_t i = 0; i < d.object_count; i++)
+            surfaces += d.objects[i].shape == Shape::patch ? d.objects[i].count - 2 : 1;
+        if (surfaces <= Limits::surfaces)
+            return true;
+        snprintf(error.text, sizeof error.text,
+                 "the scene has %llu surfaces (a patch of n corners counts as n - 2), more than the limit of %u surfaces",
+                 static_cast<unsigned long long>(surfaces), Limits::surfaces);
+        return false;
+    }
 
     void reset()
     {

@@ -16,6 +16,7 @@ namespace qray::scene {
 struct Limits {
     static constexpr uint32_t objects = 262'144;    // entities after parsing (a patch is one)
     static constexpr uint32_t vertices = 1'048'576; // corners of all polygons and patches
+    static constexpr uint32_t surfaces = 1'048'575; // after building: a patch of n corners has n - 2
     static constexpr uint32_t materials = 4'096;    // distinct fills
     static constexpr uint32_t lights = 64;
     static constexpr uint32_t resolution = 32'768;  // pixels along either edge
