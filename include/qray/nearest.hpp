@@ -101,6 +101,8 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
 template <class N, Effects E>
 QRAY_INLINE constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit)
 {
+    if constexpr (!N::is_fixed)
+        hit = {}; // or the compiler warns that it may be used unset
     hit.t = N::length_max;
     hit.tag = {Tag::none};
     for_each_candidate(scene, ray, [&hit] { return hit.t; }, [&](const auto& shape, Kind kind, uint32_t index) {
