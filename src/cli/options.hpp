@@ -19,6 +19,11 @@ struct Options {
     bool has_samples = false; // -r was given, so that -a must not be
     uint32_t threads = 0;     // 0: one for each processor
     bool stats = false, quiet = false;
+    // qray plan; 0 is what was not given
+    const char* board = nullptr;
+    double mhz = 0, seconds = 0;
+    double decibels = 0, levels = 0; // the accuracy asked for, one way or the other
+    bool check = false;
 };
 
 constexpr uint32_t max_threads = 256;

@@ -104,7 +104,9 @@ def predict(cost, counts):
 def fit_flash(measured, counted):
     effects = [k for k in next(iter(counted.values())) if k.startswith("effect_") and k != "effect_tree"]
     rows = [[1.0] + [counted[s][e] for e in effects] for s in measured]
-    return [v * 1000 for v in least_squares(rows, [m["flash"] / 1000 for m in measured.values()], 1e-3)], effects
+    bytes_of = [1000 * v for v in least_squares(rows, [m["flash"] / 1000 for m in measured.values()], 1e-3)]
+    # What no scene here calls for (sampling) has about the size of other effects.
+    return [600 if not any(r[k] for r in rows) else v for k, v in enumerate(bytes_of)], effects
 
 
 def main():
