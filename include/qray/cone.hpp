@@ -94,15 +94,25 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
         t[i] = valid[i] ? b + N::coarse(tau[i], s.fine) : N::length_zero;
     }
     if (leaving == Leaves::inward) {
-        // Inside between the roots where A > 0, and to its end where not. The ray begins at one root, so that the other is
-        // the whole chord away: 2 sqrt(D) / A, which knows nothing of the error of B.
-        Length chord{};
-        if (!(a > typename N::Cosine{}) || !N::quotient(root + root, a, k, chord) || chord > s.bound + s.bound)
+        // Inside between the roots where A > 0, and to its end where not. The end is the larger root; the chord between the
+        // roots, 2 sqrt(D) / A, bounds it and stands in for it, since it knows nothing of the error of B.
+        if (!(a > typename N::Cosine{}))
             return 0;
-        t[0] = N::coarse(chord, s.fine);
-        if (!(t[0] > N::length_zero))
+        const int end = q > typename N::Moment{} ? 0 : 1;
+        Length chord{};
+        const bool bounded = N::quotient(root + root, a, k, chord) && chord <= s.bound + s.bound;
+        if (!valid[end] && !bounded)
+            return 0;
+        t[0] = t[end];
+        tau[0] = tau[end];
+        if (bounded && (!valid[end] || t[0] > N::coarse(chord, s.fine))) {
+            t[0] = N::coarse(chord, s.fine);
+            tau[0] = chord - N::fine(b, s.fine);
+        }
+        if (!(t[0] > N::length_zero)) {
             t[0] = N::ulp;
-        tau[0] = chord - N::fine(b, s.fine);
+            tau[0] = -N::fine(b, s.fine);
+        }
         valid[0] = true;
         valid[1] = false;
     }

@@ -9,8 +9,8 @@ namespace qray {
 template <class N>
 QRAY_INLINE constexpr Direction<N> mirrored(const Direction<N>& d, const Direction<N>& n, typename N::Unit n_d)
 {
-    const auto twice = n_d + n_d;
-    Direction<N> out = d - scaled<N>(twice, n);
+    const Direction<N> once = scaled<N>(n_d, n); // twice it may be 2, which Unit does not hold
+    Direction<N> out = d - once - once;
     N::sharpen(out.x, out.y, out.z);
     return out;
 }
