@@ -54,7 +54,8 @@ constexpr bool stands_out(typename Sample<N>::Level own, typename Sample<N>::Lev
                           typename N::Unit threshold)
 {
     if constexpr (N::is_fixed) {
-        const uint32_t limit = 3 * static_cast<uint32_t>(threshold.raw) >> (N::Unit::frac - 28);
+        constexpr int up = Sample<N>::frac - N::Unit::frac;
+        const uint32_t limit = 3 * static_cast<uint32_t>(threshold.raw) << (up > 0 ? up : 0) >> (up > 0 ? 0 : -up);
         return (4 * own > sum ? 4 * own - sum : sum - 4 * own) > limit;
     } else {
         const auto limit = 3 * threshold;

@@ -6,14 +6,23 @@
 
 namespace qray {
 
-// A direction before it is made a unit vector: w + x u + y v with |w|, |x u|, |y v| <= 2^60 in fixed point.
+// A direction before it is made a unit vector: w + x u + y v with |w|, |x u|, |y v| <= 2^60 in fixed point, 2^29 where
+// products have 32 bits.
 template <class N>
 struct Pencil;
 template <class N>
-    requires N::is_fixed
+    requires(N::is_fixed && !IsNarrow<N>)
 struct Pencil<N> {
     int64_t x, y, z;
     constexpr bool unit(Direction<N>& d) const { return N::normalise_wide(x, y, z, d.x, d.y, d.z); }
+    friend constexpr Pencil operator+(const Pencil& a, const Pencil& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    friend constexpr Pencil operator*(const Pencil& a, int32_t k) { return {a.x * k, a.y * k, a.z * k}; }
+};
+template <class N>
+    requires IsNarrow<N>
+struct Pencil<N> {
+    int32_t x, y, z;
+    constexpr bool unit(Direction<N>& d) const { return N::normalise(x, y, z, d.x, d.y, d.z); }
     friend constexpr Pencil operator+(const Pencil& a, const Pencil& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
     friend constexpr Pencil operator*(const Pencil& a, int32_t k) { return {a.x * k, a.y * k, a.z * k}; }
 };

@@ -48,7 +48,7 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
     if (b < -reach || b - reach > limit)
         return 0;
     const Point<N> p = along<N>(b, ray.direction) - v;
-    if (norm2<N>(p) > reach * reach)
+    if (beyond<N>(p, reach))
         return 0;
     const Point<N> o = fine_offset<N>(b, ray.direction, v, s.fine);
     local.near = o;
@@ -61,7 +61,7 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
     const auto dz = N::unit(dot<N>(ray.direction, s.axis));
     const auto ws = s.sine * dz;
     const int k = N::headroom(wx, wy, ws);
-    if (k > 30) // along the axis of a cylinder: less than 1 ulp across in all its length
+    if (k > N::most_headroom) // along the axis of a cylinder: hardly more than 1 ulp across in all its length
         return 0;
     const auto dx = N::unit(N::shifted(wx, k));
     const auto dy = N::unit(N::shifted(wy, k));

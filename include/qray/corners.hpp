@@ -18,6 +18,13 @@ struct Sheared {
     typename N::Length x, y;
 };
 
+// Where products have 32 bits, the sheared corner is exact: not rounded to a Length.
+template <class N>
+    requires IsNarrow<N>
+struct Sheared<N> {
+    typename N::Moment x, y;
+};
+
 template <class N>
 struct Shear {
     int axis; // the dominant axis of the direction: 0, 1, 2
@@ -47,7 +54,10 @@ struct Shear {
         const auto z = axis == 0 ? v.x : axis == 1 ? v.y : v.z;
         const auto x = axis == 0 ? v.y : axis == 1 ? v.z : v.x;
         const auto y = axis == 0 ? v.z : axis == 1 ? v.x : v.y;
-        return {N::length(x * dz - z * dx), N::length(y * dz - z * dy)};
+        if constexpr (IsNarrow<N>)
+            return {x * dz - z * dx, y * dz - z * dy};
+        else
+            return {N::length(x * dz - z * dx), N::length(y * dz - z * dy)};
     }
 };
 
@@ -55,14 +65,17 @@ struct Shear {
 template <class N>
 QRAY_INLINE constexpr auto edge(const Sheared<N>& a, const Sheared<N>& b)
 {
-    return a.x * b.y - b.x * a.y;
+    if constexpr (IsNarrow<N>)
+        return Wide<2 * N::Moment::frac, 32>{wide_mul(a.x.raw, b.y.raw) - wide_mul(b.x.raw, a.y.raw)};
+    else
+        return a.x * b.y - b.x * a.y;
 }
 
 // Does the edge a-b cross the half-line y = 0, x > 0? The same answer for b-a.
 template <class N>
 QRAY_INLINE constexpr bool crosses(const Sheared<N>& a, const Sheared<N>& b)
 {
-    constexpr auto o = N::length_zero;
+    constexpr decltype(a.x) o{};
     const bool up = b.y > o;
     if ((a.y > o) == up)
         return false;
@@ -70,8 +83,8 @@ QRAY_INLINE constexpr bool crosses(const Sheared<N>& a, const Sheared<N>& b)
         return false;
     if (a.x > o && b.x > o)
         return true;
-    constexpr typename N::Area none{};
     const auto e = edge<N>(a, b);
+    constexpr decltype(e) none{};
     return up ? e > none : e < none;
 }
 
@@ -115,7 +128,11 @@ constexpr bool intersect_corners(const Direction<N>& normal, uint32_t count, Cor
     }
     if (!inside)
         return false;
-    return !edge_on || plane_distance<N>(normal, count, corner, ray, den, limit, t);
+    // A rounded normal may put the plane beside the corners.
+    if constexpr (!IsNarrow<N>)
+        if (!edge_on)
+            return true;
+    return plane_distance<N>(normal, count, corner, ray, den, limit, t);
 }
 
 } // namespace qray

@@ -20,7 +20,7 @@ template <class N>
 struct LatticeAxis;
 
 template <class N>
-    requires N::is_fixed
+    requires(N::is_fixed && !IsNarrow<N>)
 struct LatticeAxis<N> {
     // row . q = (sum of row_i q_i, in units of 2^-30 lengths) * 2^shift, in units of 2^-32 cells
     int32_t row_x, row_y, row_z;
@@ -58,6 +58,41 @@ struct LatticeAxis<N> {
     {
         return {static_cast<uint32_t>(p >> 32),
                 typename N::Unit{static_cast<int32_t>(static_cast<uint32_t>(p) >> (32 - N::Unit::frac))}};
+    }
+};
+
+// The same in 32 bits: p = (row . q + offset) 2^-frac + whole, where the sum is less than 2^31 for every point of the
+// scene, so that the rounding of a row is worth 2^-15 of that sum: about 1 ulp of the point.
+template <class N>
+    requires IsNarrow<N>
+struct LatticeAxis<N> {
+    int32_t row_x, row_y, row_z;
+    int32_t frac; // [1, 30]
+    int32_t offset;
+    int32_t whole; // where a lattice does not wrap, at most 2^15 either way
+
+    constexpr Cell<N> cell(const Point<N>& q) const
+    {
+        const int32_t p = row_x * q.x.raw + row_y * q.y.raw + row_z * q.z.raw + offset;
+        const uint32_t inside = static_cast<uint32_t>(p) << (32 - frac) >> (32 - N::Unit::frac);
+        return {static_cast<uint32_t>(p >> frac) + static_cast<uint32_t>(whole), {static_cast<int32_t>(inside)}};
+    }
+    // In 2^-14, clamped to +-2^30.
+    constexpr int32_t bounded(const Point<N>& q) const
+    {
+        constexpr int32_t limit = int32_t{1} << 16;
+        const Cell<N> c = cell(q);
+        const int32_t index = static_cast<int32_t>(c.index);
+        return index >= limit ? limit << 14 : index < -limit ? -limit * (1 << 14) : index * (1 << 14) + c.inside.raw;
+    }
+    constexpr typename N::Unit clamped(const Point<N>& q) const
+    {
+        const int32_t p = bounded(q);
+        return p > 0 ? (p < N::one.raw ? typename N::Unit{p} : N::one) : N::zero;
+    }
+    static constexpr Cell<N> split(uint32_t p)
+    {
+        return {p >> 14, typename N::Unit{static_cast<int32_t>(p & 0x3fff)}};
     }
 };
 
@@ -126,7 +161,14 @@ struct Lattice {
 template <class N, class P>
 constexpr Cell<N> radial_cell(P a, P b, bool with_epsilon)
 {
-    if constexpr (N::is_fixed) {
+    if constexpr (IsNarrow<N>) {
+        // To 15 bits, if they have more.
+        const uint32_t ua = N::magnitude(a), ub = N::magnitude(b);
+        const int more = 17 - count_leading_zeros(ua | ub);
+        const int down = more > 0 ? more : 0;
+        const uint32_t na = ua >> down, nb = ub >> down;
+        return LatticeAxis<N>::split((isqrt(na * na + nb * nb) << down) + (with_epsilon ? uint32_t{1} << 4 : 0));
+    } else if constexpr (N::is_fixed) {
         const uint64_t ua = N::magnitude(a), ub = N::magnitude(b);
         const int down = 32 - count_leading_zeros(ua | ub);
         uint64_t rho = 0;

@@ -29,7 +29,7 @@ QRAY_INLINE constexpr bool towards(const Light<N>& light, const Point<N>& q, Dir
         if (!normalise<N>(v, l))
             return false;
         const int32_t d = N::length(dot<N>(v, l)).raw;
-        distance = d > INT32_MAX >> s ? N::length_max : typename N::Length{d << s};
+        distance = d > N::length_max.raw >> s ? N::length_max : typename N::Length{d << s};
         return true;
     } else {
         const Point<N> v = light.at - q;

@@ -103,4 +103,40 @@ private:
     }
 };
 
+// Where the exact test is as narrow: the perpendicular of sphere.hpp to one ulp, component by component.
+template <class N>
+    requires IsNarrow<N>
+struct NarrowRay<N> {
+    static constexpr bool rejects = true;
+    const Ray<N>& ray;
+
+    QRAY_INLINE constexpr explicit NarrowRay(const Ray<N>& r) : ray(r) {}
+
+    // `radius` is 3 more than the ball's: that much, b and the components are off, each downward by less than 1.
+    QRAY_INLINE constexpr bool misses_ball(const Point<N>& centre, typename N::Length radius) const
+    {
+        constexpr int down = N::Unit::frac;
+        const Point<N> v = centre - ray.origin;
+        const int32_t r = radius.raw;
+        const int32_t b = dot<N>(v, ray.direction).raw >> down;
+        if (b + r < 0) // all behind
+            return true;
+        const uint32_t edge = 2 * static_cast<uint32_t>(r);
+        const int32_t x = (b * ray.direction.x.raw >> down) - v.x.raw;
+        if (static_cast<uint32_t>(x + r) > edge)
+            return true;
+        const int32_t y = (b * ray.direction.y.raw >> down) - v.y.raw;
+        if (static_cast<uint32_t>(y + r) > edge)
+            return true;
+        const int32_t z = (b * ray.direction.z.raw >> down) - v.z.raw;
+        if (static_cast<uint32_t>(z + r) > edge)
+            return true;
+        return r <= 37800 && square(x) + square(y) + square(z) > square(r); // three of these fit
+    }
+    constexpr bool misses_plane(const Point<N>&, const Direction<N>&) const { return false; }
+
+private:
+    QRAY_INLINE static constexpr uint32_t square(int32_t a) { return static_cast<uint32_t>(a) * static_cast<uint32_t>(a); }
+};
+
 } // namespace qray

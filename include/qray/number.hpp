@@ -224,6 +224,8 @@ struct FixedSystem {
         return {k >= 0 ? static_cast<Rep>(a.raw * (Rep{1} << k)) : static_cast<Rep>(a.raw >> -k)};
     }
 
+    static constexpr int most_headroom = UnitFrac;
+
     // eta x, clamped to +-5/4: a bent direction longer than 1 is totally reflected, however long.
     QRAY_INLINE static constexpr Unit bent(Eta eta, Unit x)
     {
@@ -390,6 +392,7 @@ struct FloatSystem {
         z = z - z * h;
     }
     QRAY_INLINE static constexpr int headroom(F, F, F) { return 0; }
+    static constexpr int most_headroom = 0;
     QRAY_INLINE static constexpr F shifted(F a, int) { return a; }
     QRAY_INLINE static constexpr F bent(F eta, F x) { return eta * x; }
     static constexpr bool weights(F a, F b, F c, F& wa, F& wb, F& wc)

@@ -5,23 +5,27 @@
 
 namespace qray {
 
-// A sample's colour, clamped to [0, 1]: Q4.28 in fixed point.
+// A sample's colour, clamped to [0, 1]: Q4.28 in fixed point, Q12.20 where products have 32 bits.
 template <class N>
 struct Sample {
     using Level = uint32_t;
-    static constexpr Level one = uint32_t{1} << 28;
+    static constexpr int frac = IsNarrow<N> ? 20 : 28;
+    static constexpr Level one = uint32_t{1} << frac;
     Level r, g, b;
 
     static constexpr Level clamped(typename N::Colour c, int exposure)
     {
         const int32_t limit = (int32_t{1} << N::Colour::frac) >> exposure;
-        return static_cast<uint32_t>((c.raw < limit ? c.raw : limit) << exposure) << (28 - N::Colour::frac);
+        return static_cast<uint32_t>((c.raw < limit ? c.raw : limit) << exposure) << (frac - N::Colour::frac);
     }
     // The nearest byte, halves up. Colours are often round decimals, whose 255-fold ends on a half: those that
     // rounding left up to 4 ulp below it count as on it.
     static constexpr uint8_t byte(Level v)
     {
-        return static_cast<uint8_t>((wide_mul(v + 4, uint32_t{255}) + (one >> 1)) >> 28);
+        if constexpr (IsNarrow<N>)
+            return static_cast<uint8_t>((v * 255 + (one >> 1)) >> frac);
+        else
+            return static_cast<uint8_t>((wide_mul(v + 4, uint32_t{255}) + (one >> 1)) >> 28);
     }
 };
 template <class N>

@@ -33,7 +33,10 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
 {
     const Point<N> v = s.centre - ray.origin;
     middle = N::length(dot<N>(v, ray.direction));
-    if constexpr (!Near || !NarrowRay<N>::rejects) {
+    if constexpr (IsNarrow<N>) {
+        if (!Near && surely_missed(s, NarrowRay<N>(ray)))
+            return false;
+    } else if constexpr (!Near || !NarrowRay<N>::rejects) {
         const auto reach = N::coarse_above(s.radius, s.fine);
         if (middle < -reach)
             return false;
@@ -106,7 +109,10 @@ template <class N>
 QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Local<N>& local, const Direction<N>& d, Point<N>& point,
                                       Direction<N>& n)
 {
-    const Point<N> w = local.near + along<N>(local.along, d);
+    auto from_near = local.along;
+    if constexpr (IsNarrow<N>) // the middle was rounded to a coarse ulp, and `near` is off by that along the ray
+        from_near = from_near - N::length(dot<N>(local.near, d));
+    const Point<N> w = local.near + along<N>(from_near, d);
     n = {N::ratio(w.x, s.inverse_radius), N::ratio(w.y, s.inverse_radius), N::ratio(w.z, s.inverse_radius)};
     // An error of |d| shows in |w|, and between mirrors would grow from one to the next.
     N::sharpen(n.x, n.y, n.z);

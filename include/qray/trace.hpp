@@ -14,7 +14,7 @@ struct NoCount {
     constexpr void operator()(RayKind) const {}
 };
 
-// A hit on the plane through c: in floating point moved onto it, since its error is that of t.
+// A hit on the plane through c: moved onto it where its error, which is that of t, is more than some ulp.
 template <class N>
 QRAY_INLINE constexpr void flat_surface([[maybe_unused]] const Point<N>& c, const Direction<N>& normal, const Ray<N>& ray,
                                         typename N::Length t, Surface<N>& s)
@@ -23,6 +23,8 @@ QRAY_INLINE constexpr void flat_surface([[maybe_unused]] const Point<N>& c, cons
     s.point = ray.origin + along<N>(t, ray.direction);
     if constexpr (!N::is_fixed)
         s.point = s.point - along<N>(dot<N>(s.point - c, normal), normal);
+    else if constexpr (IsNarrow<N>)
+        s.point = s.point - along<N>(N::length(dot<N>(s.point - c, normal)), normal);
 }
 
 template <class N, Effects E>

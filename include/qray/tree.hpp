@@ -39,6 +39,12 @@ public:
           oz(all_four(as_float(ray.origin.z))), dx(all_four(as_float(ray.direction.x))),
           dy(all_four(as_float(ray.direction.y))), dz(all_four(as_float(ray.direction.z)))
     {
+        if constexpr (IsNarrow<N>) { // the direction's length is wrong in the 14th bit
+            const Float4 k = 1.5f - 0.5f * (dx * dx + dy * dy + dz * dz);
+            dx *= k;
+            dy *= k;
+            dz *= k;
+        }
     }
 
     // Which balls of a block the ray may enter.
@@ -146,7 +152,12 @@ QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit vi
     }
     Walk steps(tree, ray);
     uint32_t base = 0;
-    while (uint32_t mask = steps.next(BoundedRay::as_float(limit()), base))
+    // Where the direction's length is wrong in the 14th bit, so is a distance.
+    const auto bound = [&limit] {
+        const float t = BoundedRay::as_float(limit());
+        return IsNarrow<N> ? t * (1.0f + 0x1p-12f) + 0x1p-6f : t;
+    };
+    while (uint32_t mask = steps.next(bound(), base))
         for (; mask != 0; mask &= mask - 1)
             if (visit(tree.shapes[base + lowest_bit(mask)]))
                 return;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "number.hpp"
+#include "q16.hpp"
 
 namespace qray {
 
@@ -29,6 +30,16 @@ template <class N>
 QRAY_INLINE constexpr auto norm2(const Vec<typename N::Length>& a)
 {
     return N::norm2(a.x, a.y, a.z);
+}
+
+// Is a longer than r?
+template <class N>
+QRAY_INLINE constexpr bool beyond(const Vec<typename N::Length>& a, typename N::Length r)
+{
+    if constexpr (IsNarrow<N>)
+        return N::beyond(a.x, a.y, a.z, r);
+    else
+        return norm2<N>(a) > r * r;
 }
 
 // t d, one rounding a component.

@@ -6,8 +6,8 @@
 namespace qray::cli {
 
 // The number systems, in the order of number_names and of renderers.
-enum class Number : uint8_t { q32, single_float, double_float };
-constexpr const char* number_names[] = {"q32", "float", "double"};
+enum class Number : uint8_t { q16, q32, single_float, double_float };
+constexpr const char* number_names[] = {"q16", "q32", "float", "double"};
 
 enum class Command : uint8_t { draw = 1, compile = 2, plan = 4 };
 

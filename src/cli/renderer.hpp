@@ -24,8 +24,8 @@ struct Renderer {
     void (*emit)(scene::Source& out, const char* title, const char* origin);
 };
 
-extern const Renderer q32_renderer, float_renderer, double_renderer;
-inline const Renderer* const renderers[] = {&q32_renderer, &float_renderer, &double_renderer};
+extern const Renderer q16_renderer, q32_renderer, float_renderer, double_renderer;
+inline const Renderer* const renderers[] = {&q16_renderer, &q32_renderer, &float_renderer, &double_renderer};
 
 template <class N>
 struct RendererOf {

@@ -110,6 +110,9 @@ private:
         return ball;
     }
 
+    // By how much a hit may lie outside its shape: see tree.hpp, q16.hpp.
+    static constexpr double slack = IsNarrow<N> ? 1.0 / 64 : 1e-4;
+
     // One level over `count` balls; returns its number of blocks.
     template <class BallOf>
     uint32_t level(uint32_t count, BallOf of)
@@ -125,7 +128,7 @@ private:
                 block.y[i] = static_cast<float>(ball.y);
                 block.z[i] = static_cast<float>(ball.z);
                 // Wider by what coordinates below 2^7 may be off in 24 bits, here and in a ray's origin.
-                block.radius[i] = present ? static_cast<float>(ball.radius * (1 + 1e-6) + 1e-4) : -1e9f;
+                block.radius[i] = present ? static_cast<float>(ball.radius * (1 + 1e-6) + slack) : -1e9f;
             }
         }
         return blocks;

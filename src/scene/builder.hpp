@@ -87,8 +87,8 @@ public:
     }
 
 private:
-    // How far a point may lie from the origin, and the ball of a cone from its middle (see cone.hpp).
-    static constexpr double world = 62, cone_world = 40, sphere_world = 31.9;
+    // How far a point may lie from the origin, and what block-scaled radii may be: see cone.hpp, q16.hpp.
+    static constexpr double world = 62, cone_world = IsNarrow<N> ? 18 : 40, sphere_world = 31.9;
 
     const Description& d;
     const Settings& settings;
@@ -152,7 +152,10 @@ private:
     Point<N> point(const Vec3d& p) const { return Convert<N>::point(frame.point(p)); }
     typename N::Length radius(double r) const { return Convert<N>::length(r * frame.scale); }
     // A bound that rounding does not make too small.
-    typename N::Length bound(double r) const { return Convert<N>::length(r * frame.scale * (1 + 1e-6) + 2e-6); }
+    typename N::Length bound(double r) const
+    {
+        return Convert<N>::length(r * frame.scale * (1 + 1e-6) + (IsNarrow<N> ? 2.0 / 1024 : 2e-6));
+    }
 
     void add(const Object& o)
     {
@@ -174,7 +177,7 @@ private:
     {
         int fine = 0;
         if constexpr (N::is_fixed)
-            while (fine < 10 && ldexp(size * frame.scale + 1.0 / 16, fine + 1) <= most)
+            while (fine < 10 && ldexp(size * frame.scale + (IsNarrow<N> ? 1.0 / 128 : 1.0 / 16), fine + 1) <= most)
                 fine++;
         return fine;
     }
@@ -334,7 +337,7 @@ private:
             Vec3d at = frame.point(l.at);
             int shift = 0;
             if constexpr (N::is_fixed)
-                for (; largest(at) > world; at = at * 0.5)
+                for (; (IsNarrow<N> ? length(at) : largest(at)) > world; at = at * 0.5)
                     shift++;
             if (shift > 31) { // so far away that it is a sun
                 s.suns.push() = {Convert<N>::direction(unit(at)), colour(l.colour)};
@@ -362,7 +365,8 @@ private:
 
     TextureRef texture(const Texture& t)
     {
-        constexpr double epsilon = 1.0 / 1024;
+        // Not less than a hit may lie off its surface.
+        const double epsilon = IsNarrow<N> ? fmax(1.0 / 1024, ldexp(1.5, -10) / (t.size * frame.scale)) : 1.0 / 1024;
         const double k = 1 / t.size;
         const auto n = surface(t.colour);
         const auto axis = [&](const Vec3d& direction, double offset, bool wraps) {
@@ -424,9 +428,9 @@ private:
         const Vec3d t = cross(u, w);
         const double half = tan(v.angle * (M_PI / 360));
         const double step = half / (n * height);
-        // |w|, |x u| and |y v| at most 2^60
+        // |w|, |x u| and |y v| at most 2^60: see camera.hpp
         const double most = fmax(1, fmax(half, half * width / height));
-        const double scale = ldexp(1, 60) / most;
+        const double scale = ldexp(1, IsNarrow<N> ? 29 : 60) / most;
         s.camera = {point(v.from),
                     Convert<N>::pencil(w, scale),
                     Convert<N>::pencil(u * step, scale),

@@ -53,7 +53,10 @@ struct Convert {
     // 1/r for r > 0.
     static typename N::Scale inverse(typename N::Length r)
     {
-        if constexpr (N::is_fixed) {
+        if constexpr (IsNarrow<N>) {
+            const int shift = count_leading_zeros(static_cast<uint32_t>(r.raw)) - 17; // r << shift in [2^14, 2^15)
+            return {static_cast<int32_t>(lrint(ldexp(1, 15 + N::Unit::frac - shift) / r.raw)), shift};
+        } else if constexpr (N::is_fixed) {
             const int shift = count_leading_zeros(static_cast<uint32_t>(r.raw)) - 1; // r << shift in [2^30, 2^31)
             const double mantissa = ldexp(1, 61 - shift) / r.raw;
             return {mantissa >= 2147483647.0 ? INT32_MAX : static_cast<int32_t>(llrint(mantissa)), shift};
@@ -76,7 +79,17 @@ struct Convert {
     {
         const double whole = dot(row, origin) + offset;
         const Vec3d r = row * (1 / scale);
-        if constexpr (N::is_fixed) {
+        if constexpr (IsNarrow<N>) {
+            // So many bits that p fits for every point of the scene.
+            int exponent = 0;
+            frexp((scene::length(r) * 62.5 + 1) * 1.0001, &exponent);
+            const int frac = exponent > 30 ? 1 : 31 - exponent;
+            const auto row_of = [frac](double v) { return static_cast<int32_t>(llrint(ldexp(v, frac - N::Length::frac))); };
+            const double cell = floor(whole);
+            const double index = wraps ? fmod(cell, 4294967296.0) : fmax(-32768, fmin(32768, cell));
+            return {row_of(r.x), row_of(r.y), row_of(r.z), frac, static_cast<int32_t>(floor(ldexp(whole - cell, frac))),
+                    static_cast<int32_t>(static_cast<int64_t>(index))};
+        } else if constexpr (N::is_fixed) {
             // The largest component gets 30 bits.
             int exponent = 0;
             frexp(largest(r), &exponent);
@@ -98,8 +111,9 @@ struct Convert {
 
     static Pencil<N> pencil(const Vec3d& d, double scale)
     {
+        [[maybe_unused]] const auto whole = [](double v) { return static_cast<decltype(Pencil<N>::x)>(llrint(v)); };
         if constexpr (N::is_fixed)
-            return {llrint(d.x * scale), llrint(d.y * scale), llrint(d.z * scale)};
+            return {whole(d.x * scale), whole(d.y * scale), whole(d.z * scale)};
         else
             return {static_cast<typename N::Unit>(d.x), static_cast<typename N::Unit>(d.y),
                     static_cast<typename N::Unit>(d.z)};

@@ -75,7 +75,7 @@ private:
 
     static constexpr const char* number_name()
     {
-        return std::is_same_v<N, Float> ? "Float" : std::is_same_v<N, Double> ? "Double" : "q32";
+        return std::is_same_v<N, Float> ? "Float" : std::is_same_v<N, Double> ? "Double" : IsNarrow<N> ? "q16" : "q32";
     }
 
     void effects()
@@ -260,7 +260,10 @@ private:
 
     void value(const LatticeAxis<N>& v)
     {
-        if constexpr (N::is_fixed) {
+        if constexpr (IsNarrow<N>) {
+            const auto& [x, y, z, frac, offset, whole] = v;
+            list(x, y, z, frac, offset, whole);
+        } else if constexpr (N::is_fixed) {
             const auto& [x, y, z, shift, offset] = v;
             list(x, y, z, shift, offset);
         } else {

@@ -52,7 +52,7 @@ struct System {
     const char* name;
     void (*see)(uint32_t* places);
 };
-constexpr System systems[] = {{"q32", see<q32>}, {"float", see<Float>}, {"double", see<Double>}};
+constexpr System systems[] = {{"q16", see<q16>}, {"q32", see<q32>}, {"float", see<Float>}, {"double", see<Double>}};
 
 int index_of(const char* name, size_t length)
 {
