@@ -55,7 +55,8 @@ class Parts(unittest.TestCase):
 
     def test_heat(self):
         self.assertEqual(figures.difference(bytes([10, 10, 10]), bytes([10, 10, 10])), bytes([0, 0, 0]))
-        self.assertEqual(figures.difference(bytes([10, 10, 10]), bytes([10, 13, 9])), bytes(figures.HEAT[2][1]))
+        self.assertEqual(figures.difference(bytes([10, 10, 10]), bytes([10, 13, 9])),
+                         bytes(figures.HEAT[2][1]))
 
     def test_ladder_says_one_thing_more_in_each_step(self):
         steps = ladder.write("build/study/ladder")
@@ -74,8 +75,8 @@ class Parts(unittest.TestCase):
         self.assertEqual(report.problems("<!-- report:one -->\na b\n<!-- /report -->", reports), [])
         self.assertEqual(len(report.problems("<!-- report:one -->\na\n<!-- /report -->", reports)), 1)
         self.assertEqual(len(report.problems("", reports)), 1)
-        self.assertEqual(len(report.problems("<!-- report:one -->\na b\n<!-- /report --> <!-- report:two -->\n"
-                                             "<!-- /report -->", reports)), 1)
+        self.assertEqual(len(report.problems("<!-- report:one -->\na b\n<!-- /report -->\n"
+                                             "<!-- report:two -->\n<!-- /report -->", reports)), 1)
 
     def test_labels_name_what_differs(self):
         self.assertEqual(study.label(study.DEFAULT), "q32")

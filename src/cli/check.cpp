@@ -12,7 +12,8 @@ namespace {
 // make hands names on to a shell.
 bool plain(const char* name)
 {
-    return strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_+-./") == strlen(name);
+    constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_+-./";
+    return strspn(name, letters) == strlen(name);
 }
 
 void take(const char* line, Truth& truth)
@@ -33,7 +34,7 @@ void take(const char* line, Truth& truth)
 bool run_firmware(const char* scene, const char* const* variables, Truth& truth)
 {
     if (!plain(scene)) {
-        fprintf(stderr, "qray: '--check' needs a scene whose name make understands: letters, digits and _+-./\n");
+        fputs("qray: '--check' needs a scene whose name make understands: letters, digits, _+-./\n", stderr);
         return false;
     }
     const char* words[16] = {"make", "--no-print-directory", "run", "RAYS=no", "NAME=plan"};

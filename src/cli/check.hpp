@@ -14,8 +14,8 @@ struct Truth {
 // Runs make with these variables, ended by a null. False, having said why, where that fails.
 bool run_firmware(const char* scene, const char* const* variables, Truth& truth);
 
-// Adds the differences between a picture file and what the renderer draws. False, having said why, where the file is not
-// a picture of that size.
+// Adds the differences between a picture file and what the renderer draws. False, having said why, where the
+// file is not a picture of that size.
 bool compare_picture(const char* path, const Renderer& renderer, const Built& built, study::Errors& errors);
 
 } // namespace qray::cli

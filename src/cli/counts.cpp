@@ -1,5 +1,5 @@
-// The tracer itself, in a number system of its own, for which the functions below come before the tracer's: each counts and
-// then asks the tracer's.
+// The tracer itself, in a number system of its own, for which the functions below come before the tracer's:
+// each counts and then asks the tracer's.
 #include "counts.hpp"
 
 #include <qray/render.hpp>
@@ -22,7 +22,8 @@ void add(Operation o, double n = 1) { counts[o] += n; }
 
 double product(const Vec<double>& a, const Vec<double>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-// Where a ball lies to a ray: whether it is ahead at all, and whether the ray's line enters it before `limit`.
+// Where a ball lies to a ray: whether it is ahead at all, and whether the ray's line enters it before
+// `limit`.
 struct Place {
     bool ahead, met;
 };
@@ -58,7 +59,8 @@ void count_test(const S& shape, const Vec<double>* vertices, const Shot& ray, do
         add(Operation::sphere_met, at.met && !(ray.from == shape.tag && ray.outward));
     } else if constexpr (requires { shape.radius; }) {
         add(Operation::disc_test);
-        add(Operation::disc_ahead, !(ray.from == shape.tag) && plane_ahead(shape.centre, shape.normal, ray, limit));
+        add(Operation::disc_ahead,
+            !(ray.from == shape.tag) && plane_ahead(shape.centre, shape.normal, ray, limit));
     } else {
         const bool ahead = !(ray.from == shape.tag)
             && plane_ahead(vertices[shape.first], shape.normal, ray, limit);
@@ -77,9 +79,9 @@ void count_test(const S& shape, const Vec<double>* vertices, const Shot& ray, do
 
 constexpr Operation seen[] = {Operation::sphere_seen, Operation::disc_seen, Operation::cone_seen,
                               Operation::polygon_seen, Operation::patch_seen};
-constexpr Operation textures[] = {Operation::pixel, Operation::checker, Operation::stripes, Operation::gradient,
-                                  Operation::rings, Operation::noise, Operation::marble, Operation::wood,
-                                  Operation::brick};
+constexpr Operation textures[] = {Operation::pixel,    Operation::checker, Operation::stripes,
+                                  Operation::gradient, Operation::rings,   Operation::noise,
+                                  Operation::marble,   Operation::wood,    Operation::brick};
 
 void count_ray(RayKind kind)
 {

@@ -1,5 +1,6 @@
-// What drawing a scene asks of a tracer, counted in double precision: the rays, and the cases of each shape's test,
-// of shading and of textures that cost differently. A board's cost of each makes a prediction of its instructions.
+// What drawing a scene asks of a tracer, counted in double precision: the rays, and the cases of each shape's
+// test, of shading and of textures that cost differently. A board's cost of each makes a prediction of its
+// instructions.
 #pragma once
 
 #include "../scene/description.hpp"

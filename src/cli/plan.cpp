@@ -33,7 +33,8 @@ struct Sampling {
     uint32_t grid, levels;
     double threshold;
 };
-constexpr Sampling samplings[] = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {1, 2, 1.0 / 16}, {1, 3, 1.0 / 32}};
+constexpr Sampling samplings[] = {{1, 0, 0}, {2, 0, 0},        {3, 0, 0},
+                                  {4, 0, 0}, {1, 2, 1.0 / 16}, {1, 3, 1.0 / 32}};
 constexpr uint32_t depths[] = {5, 3, 2, 1};
 
 struct Candidate {
@@ -86,7 +87,7 @@ double instructions(const Calibration& costs, const OperationCounts& counts, con
         const bool once = i == static_cast<int>(Operation::pixel);
         sum += costs.cost[i] * counts.of[i] * (once || s.levels != 0 ? 1 : s.grid * s.grid);
     }
-    return sum;
+    return sum * (s.levels != 0 ? costs.adaptive : s.grid != 1 ? costs.grid : 1);
 }
 
 double flash(const Calibration& costs, const Effects& effects, const scene::Description& d)
@@ -173,7 +174,8 @@ size_t predict(const Options& options, const Rows& rows)
                     continue;
                 Candidate& c = candidates[found];
                 c = {costs, static_cast<int>(n), s, instructions(*costs, counts, s), 0,
-                     flash(*costs, built.effects, description()), ram(*costs, built.effects, s, built.width), {}};
+                     flash(*costs, built.effects, description()),
+                     ram(*costs, built.effects, s, built.width), {}};
                 c.seconds = options.mhz > 0 ? c.instructions * costs->cycles / (options.mhz * 1e6) : 0;
                 if (c.flash > costs->flash || c.ram > costs->ram)
                     continue;

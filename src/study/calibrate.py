@@ -1,9 +1,9 @@
-"""make calibrate: what each of src/cli/counts.hpp's operations costs on each board in each number system, from traces of
-small pictures. Writes src/study/calibration.hpp, from which `qray plan` predicts.
+"""make calibrate: what each of src/cli/counts.hpp's operations costs on each board in each number system,
+from traces of small pictures. Writes src/study/calibration.hpp, from which `qray plan` predicts.
 
-The trace says how many instructions each step of the tracer took (cycles.py), and the desktop how often each operation
-was asked for; the costs of a step's operations are those not below 0 that leave the least squares of differences,
-each as a share of its whole picture, over all scenes."""
+The trace says how many instructions each step of the tracer took (cycles.py), and the desktop how often each
+operation was asked for; the costs of a step's operations are those not below 0 that leave the least squares
+of differences, each as a share of its whole picture, over all scenes."""
 
 import glob
 import os
@@ -23,8 +23,13 @@ BOARDS = ["microbit", "mps2_an385", "mps2_an386", "rv32_virt"]
 SIZES = {"float": "8x6", "double": "6x4"}
 SIZE = "12x9"
 # A number system whose arithmetic is all the compiler's library is the same everywhere: fewer scenes do.
-SCENES = ["floor", "showcase", "glass", "castle", "patches", "materials", "polygons", "phong", "textures", "lights"]
+SCENES = ["floor", "showcase", "glass", "castle", "patches", "materials", "polygons", "phong",
+          "textures", "lights"]
 FEW = SCENES[:5]
+# A program with several samples is compiled into other code: its instructions by those that are predicted,
+# from these.
+SAMPLED = ["floor", "showcase", "castle"]
+SAMPLINGS = {"grid": ("4", {"SAMPLES": 4}), "adaptive": ("a2,0.0625", {"ADAPTIVE": "2,0.0625"})}
 
 # The operations that a step's instructions are shared out to.
 STEPS = {
@@ -42,8 +47,8 @@ STEPS = {
 
 
 def least_squares(rows, wanted, ridge=1e-5):
-    """x >= 0 that makes |rows x - wanted|^2 least, by coordinate descent; a little ridge shares out what the rows
-    cannot tell apart. Columns are scaled to their largest."""
+    """x >= 0 that makes |rows x - wanted|^2 least, by coordinate descent; a little ridge shares out what the
+    rows cannot tell apart. Columns are scaled to their largest."""
     columns = len(rows[0])
     scale = [max((r[k] for r in rows), default=0) or 1 for k in range(columns)]
     a = [[r[k] / scale[k] for k in range(columns)] for r in rows]
@@ -64,8 +69,8 @@ def size_of(board, number):
     return SIZE if number == "float" and board == "mps2_an386" else SIZES.get(number, SIZE)
 
 
-def operations(scene, size):
-    text = runs.output_of(OPERATIONS, scene, size)
+def operations(scene, size, samples="1"):
+    text = runs.output_of(OPERATIONS, scene, size, samples)
     return {k: float(v) for k, v in re.findall(r"^(\w+): ([\d.]+)$", text, re.M)}
 
 
@@ -113,7 +118,8 @@ def main():
     scenes = [f"scenes/{name}.nff" for name in SCENES]
     steps = ladder.write("build/study/ladder")
     scenes += [path for name, path, _ in steps if name in ("shadow", "glass")]
-    counted_at = {(scene, size): operations(scene, size) for scene in scenes for size in {SIZE, *SIZES.values()}}
+    counted_at = {(scene, size): operations(scene, size)
+                  for scene in scenes for size in {SIZE, *SIZES.values()}}
     plan = {}
     for number in runs.numbers():
         for board in BOARDS:
@@ -121,7 +127,11 @@ def main():
                 if number != "double" or os.path.basename(scene).removesuffix(".nff") in FEW:
                     plan[board, number, scene] = runs.Run(board, scene, number,
                                                                    size_of(board, number), profile=True)
-    runs.perform(list(plan.values()))
+    sampled = {(board, number, name, kind): runs.Run(board, f"scenes/{name}.nff", number,
+                                                     size_of(board, number), **o)
+               for number in runs.numbers() if number != "double" for board in BOARDS for name in SAMPLED
+               for kind, (_, o) in SAMPLINGS.items()}
+    runs.perform(list(plan.values()) + list(sampled.values()))
     lines, shares = [], []
     for board in BOARDS:
         for number in runs.numbers():
@@ -132,18 +142,32 @@ def main():
             counted = {s: counted_at[s, size_of(board, number)] for s in scenes}
             cost = fit(measured, counted)
             for scene, m in measured.items():
-                shares.append((abs(predict(cost, counted[scene]) / m["instructions"] - 1), board, number, scene))
+                off = predict(cost, counted[scene]) / m["instructions"] - 1
+                shares.append((abs(off), board, number, scene))
             flash, effects = fit_flash(measured, counted)
-            per = sum(m["cycles"] for m in measured.values()) / sum(m["instructions"] for m in measured.values())
+            per = (sum(m["cycles"] for m in measured.values())
+                   / sum(m["instructions"] for m in measured.values()))
             stack = max(m["stack_bound"] for m in measured.values())
             size, ram = memory(board)
+            several = []
+            for kind, (samples, _) in SAMPLINGS.items():
+                known = []
+                for name in SAMPLED:
+                    run = sampled.get((board, number, name, kind))
+                    if run is not None and "refused" not in run.result:
+                        counts = operations(run.scene, run.size, samples)
+                        known.append(run.result["instructions"] / predict(cost, counts))
+                        stack = max(stack, run.result["stack_bound"])
+                several.append(sorted(known)[len(known) // 2] if known else 1)
             costs = ", ".join(f"{cost.get(name, 0):.1f}" for name in names())
             flashes = ", ".join(f"{v:.0f}" for v in flash)
-            lines.append(f'    {{"{board}", "{number}", {size}, {ram}, {per:.3f}, {stack},\n     {{{costs}}},\n'
+            lines.append(f'    {{"{board}", "{number}", {size}, {ram}, {per:.3f}, {stack}, '
+                         f'{several[0]:.3f}, {several[1]:.3f},\n     {{{costs}}},\n'
                          f"     {{{flashes}}}}},\n")
     shares.sort()
-    text = f"""// Made by `make calibrate`; not to be edited. Costs of each board and number system: of every operation of
-// src/cli/counts.hpp in instructions, and of every effect in bytes of flash.
+    order = ", ".join(f'"{e.removeprefix("effect_")}"' for e in effects)
+    text = f"""// Made by `make calibrate`; not to be edited. Costs of each board and number system: of every
+// operation of src/cli/counts.hpp in instructions, and of every effect in bytes of flash.
 #pragma once
 
 namespace qray::study {{
@@ -154,11 +178,12 @@ struct Calibration {{
     unsigned flash, ram;  // bytes that the board has
     double cycles;        // an instruction, modelled
     unsigned stack;       // bytes, the most of all scenes measured
+    double grid, adaptive; // instructions with several samples, by what the operations cost with one
     double cost[{len(names())}];
     double effects[{len(effects) + 1}]; // bytes of flash: of every program, then of each effect
 }};
 
-inline constexpr const char* effect_order[] = {{{", ".join(f'"{e.removeprefix("effect_")}"' for e in effects)}}};
+inline constexpr const char* effect_order[] = {{{order}}};
 
 inline constexpr Calibration calibrations[] = {{
 {"".join(lines)}}};
@@ -169,8 +194,8 @@ inline constexpr Calibration calibrations[] = {{
     with open(OUTPUT + ".part", "w") as file:
         file.write(text)
     os.replace(OUTPUT + ".part", OUTPUT)
-    print(f"{OUTPUT}: {len(lines)} boards and number systems; of the pictures that it was made from it tells the "
-          f"instructions within {100 * shares[len(shares) // 2][0]:.0f} % (median), "
+    print(f"{OUTPUT}: {len(lines)} boards and number systems; of the pictures that it was made from it "
+          f"tells the instructions within {100 * shares[len(shares) // 2][0]:.0f} % (median), "
           f"{100 * shares[-1][0]:.0f} % at worst ({' '.join(shares[-1][1:])})")
 
 

@@ -3,12 +3,13 @@ published timings of the cores make of them, with memory that never makes the co
 
     M0    Cortex-M0 Technical Reference Manual (ARM DDI 0432C), section 3.3, with the 1-cycle multiplier
     M3    Cortex-M3 Technical Reference Manual (ARM DDI 0337I), section 3.3.1; refilling the pipeline
-          after a taken branch as 2 of its 1 to 3 cycles, long multiplies and divisions by the middle of their range
+          after a taken branch as 2 of its 1 to 3 cycles, long multiplies and divisions by the middle of
+          their range
     M4F   Cortex-M4 Technical Reference Manual (ARM DDI 0439B), sections 3.3.1 and 7.2.3, the same way
     RV32  Ibex Reference Guide, "Pipeline Details": single-cycle multiplier, no branch target unit
 
-A load's cycles do not count what following loads gain from the pipeline, so M3 and M4F are upper estimates.
-"""
+A load's cycles do not count what following loads gain from the pipeline, so M3 and M4F are upper
+estimates."""
 
 import collections
 import os
@@ -23,10 +24,10 @@ import elf as elf_file  # noqa: E402
 import profile as profiler  # noqa: E402
 import runs  # noqa: E402
 
-# Cycles by class of src/boards/common/profile.py; `several` is what a load or store of several costs beside one
-# cycle for each register, `return` what it costs where it pops them.
-M0 = {"other": 1, "multiply": 1, "load": 2, "store": 2, "several": 1, "branch, not taken": 1, "branch, taken": 3,
-      "jump": 3, "call": 4, "return": 3}
+# Cycles by class of src/boards/common/profile.py; `several` is what a load or store of several costs beside
+# one cycle for each register, `return` what it costs where it pops them.
+M0 = {"other": 1, "multiply": 1, "load": 2, "store": 2, "several": 1,
+      "branch, not taken": 1, "branch, taken": 3, "jump": 3, "call": 4, "return": 3}
 M3 = {"other": 1, "multiply": 1, "long multiply": 4, "divide": 7, "load": 2, "store": 1, "several": 1,
       "branch, not taken": 1, "branch, taken": 3, "jump": 3, "call": 3, "return": 3}
 M4F = {**M3, "long multiply": 1, "float": 1, "float divide or root": 14}
@@ -35,8 +36,9 @@ RV32 = {"other": 1, "multiply": 1, "long multiply": 2, "divide": 37, "load": 2, 
 TIMINGS = {"microbit": M0, "mps2_an385": M3, "mps2_an386": M4F, "rv32_virt": RV32}
 
 TEXTURES = ["checker", "stripes", "gradient", "rings", "noise", "marble", "wood", "brick"]
-# The step that an instruction belongs to is that of the innermost of these files that it was inlined into. What was
-# inlined into none (arithmetic out of line, the compiler's library) counts for the step that called it.
+# The step that an instruction belongs to is that of the innermost of these files that it was inlined into.
+# What was inlined into none (arithmetic out of line, the compiler's library) counts for the step that called
+# it.
 STEPS = {
     "camera": "camera", "render": "camera", "grid": "camera", "adaptive": "camera",
     "sphere": "spheres", "disc": "discs", "cone": "cones", "polygon": "polygons", "patch": "patches",
@@ -90,8 +92,9 @@ def count(command, image, step):
     with tempfile.TemporaryDirectory() as folder:
         pipe = os.path.join(folder, "trace")
         os.mkfifo(pipe)
-        command = command + ["-nographic", "-monitor", "none", "-serial", "none", "-d", "in_asm,exec,nochain", "-D",
-                             pipe, "-semihosting-config", f"enable=on,target=native,arg={folder}/picture",
+        command = command + ["-nographic", "-monitor", "none", "-serial", "none",
+                             "-d", "in_asm,exec,nochain", "-D", pipe, "-semihosting-config",
+                             f"enable=on,target=native,arg={folder}/picture",
                              "-kernel", image["path"]]
         process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL)
@@ -174,5 +177,5 @@ def measure(run, name):
     sizes = {k: int(v) for k, v in re.findall(r"^(flash|ram|stack_bound): (\d+)$", done.stdout, re.M)}
     roots = sum(number for address, number in counts.items() if address in mine and ROOTS.search(
         chain[0][1] if (chain := names[address]) else program.name(program.owner(address))))
-    return {"instructions": sum(classes.values()), "cycles": cycles, "classes": dict(classes), "steps": dict(steps),
-            "roots": roots, **sizes}
+    return {"instructions": sum(classes.values()), "cycles": cycles, "classes": dict(classes),
+            "steps": dict(steps), "roots": roots, **sizes}

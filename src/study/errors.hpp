@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 namespace qray::study {
 
@@ -17,7 +18,7 @@ struct Errors {
         for (size_t i = 0; i < count; i++) {
             int worst = 0;
             for (size_t c = 0; c < 3; c++) {
-                const int difference = a[3 * i + c] < b[3 * i + c] ? b[3 * i + c] - a[3 * i + c] : a[3 * i + c] - b[3 * i + c];
+                const int difference = abs(a[3 * i + c] - b[3 * i + c]);
                 squares += difference * difference;
                 worst = worst < difference ? difference : worst;
             }
@@ -28,7 +29,10 @@ struct Errors {
         bytes += 3 * count;
     }
     double rms() const { return bytes != 0 ? sqrt(squares / static_cast<double>(bytes)) : 0; }
-    double off_share() const { return pixels != 0 ? static_cast<double>(off) / static_cast<double>(pixels) : 0; }
+    double off_share() const
+    {
+        return pixels != 0 ? static_cast<double>(off) / static_cast<double>(pixels) : 0;
+    }
     // Decibels; pictures without a difference have 99.
     double psnr() const { return squares > 0 ? fmin(99, 20 * log10(255 / rms())) : 99; }
 };

@@ -72,9 +72,10 @@ def frontier(study, board, path):
         x += 30 + 8 * len(n)
     out.line([(x, 40), (x + 24, 40)], "#223", 1.4)
     out.text(x + 30, 44, "nothing else is both cheaper and better;  pale: something is", 12)
-    out.text(60, 412, f"Accuracy: PSNR to double with 256 samples and depth 8, {study.error_size.replace('x', ' × ')} "
-             "pixels. What a label does not say is q32, 1 sample, depth 5, cutoff 0.0014; a2 and a3 sample adaptively.",
-             11, colour=svg.GREY)
+    size = study.error_size.replace("x", " × ")
+    out.text(60, 412, f"Accuracy: PSNR to double with 256 samples and depth 8, {size} pixels. What a label "
+             "does not say is q32, 1 sample, depth 5, cutoff 0.0014; a2 and a3 sample adaptively.", 11,
+             colour=svg.GREY)
     out.write(path, f"{runs.BOARDS[board]}: accuracy against instructions")
 
 
@@ -119,9 +120,9 @@ def samples(study, path):
     out = svg.Svg(860, 430)
     boards = {b: i for i, b in enumerate(study_file.BOARDS)}
     tones = ["#b9770e", "#1f5fa8", "#8e44ad", "#1a8f4c"]
-    chosen = [r for r in study.rows if r["setting"][0] == "q32" and r["setting"][2:] == study_file.DEFAULT[2:]]
     scene = list(study.scenes)[-1]
-    chosen = [r for r in chosen if r["scene"] == scene]
+    chosen = [r for r in study.rows if r["scene"] == scene and r["number"] == "q32"
+              and r["setting"][2:] == study_file.DEFAULT[2:]]
     base = {r["board"]: r["instructions/pixel"] for r in chosen if r["samples"] == "1"}
     points = [(mean_samples(study, scene, r["setting"]), r["instructions/pixel"] / base[r["board"]], r)
               for r in chosen]
@@ -160,8 +161,8 @@ def samples(study, path):
         out.text(490, 324 + 18 * k - 18, name_of(at), 12)
     right.finish()
     out.text(60, 24, "Time and error against samples, q32", 16, weight="bold")
-    out.text(60, 412, "Diamonds: adaptive sampling, at the mean of its samples. Dashed: time that grows as the samples do.",
-             11, colour=svg.GREY)
+    out.text(60, 412, "Diamonds: adaptive sampling, at the mean of its samples. Dashed: time that grows as "
+             "the samples do.", 11, colour=svg.GREY)
     out.write(path, "Time and error against samples")
 
 
@@ -197,7 +198,8 @@ def panel(study, path):
 
     def draw(name, *options):
         to = f"{study.folder}/panel-{name}.ppm"
-        done = subprocess.run(["build/qray", scene, "-q", "-s", size, "-o", to, *options], capture_output=True)
+        done = subprocess.run(["build/qray", scene, "-q", "-s", size, "-o", to, *options],
+                              capture_output=True)
         return read_ppm(to) if done.returncode == 0 else None
 
     exact = draw("double", "-n", "double")
@@ -216,7 +218,8 @@ def panel(study, path):
             continue
         width, height, rgb = picture
         rms = math.sqrt(sum((p - q) ** 2 for p, q in zip(rgb, truth[2])) / len(rgb))
-        out.text(x + wide, 44, f"{20 * math.log10(255 / rms):.0f} dB" if rms > 0 else "equal", 12, "end", svg.GREY)
+        out.text(x + wide, 44, f"{20 * math.log10(255 / rms):.0f} dB" if rms > 0 else "equal", 12, "end",
+                 svg.GREY)
         out.image(x, 52, wide, high, svg.png(width, height, rgb))
         out.image(x, 52 + high + 20, wide, high, svg.png(width, height, difference(rgb, truth[2])))
         out.text(x, 52 + high + 14, f"off {against} by", 11, colour=svg.GREY)

@@ -27,8 +27,8 @@ material colour 0.3 0.8 0.4 diffuse 0.8
 {polygon}
 """
 
-# Name, what it writes into the scene (of `shadow`: off before), options of make. A transmit below the cutoff lets
-# light through and has no refracted ray.
+# Name, what it writes into the scene (of `shadow`: off before), options of make. A transmit below the cutoff
+# lets light through and has no refracted ray.
 STEPS = [
     ("matte balls", "", {}),
     ("shadow", "on", {}),

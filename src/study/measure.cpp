@@ -1,7 +1,8 @@
 // Error and time of one scene's picture on this machine, for any settings, as CSV.
-//   measure SCENE WxH NUMBER:SAMPLES:DEPTH:CUTOFF ...     SAMPLES is a square, or aLEVELS,THRESHOLD
-// Arithmetic error is against double at the same settings, total error against double with 256 samples and depth 8.
-// Time is that of one thread, as a ratio to float's of the same settings, each the best of several tries in turn.
+//   measure [-a] SCENE WxH NUMBER:SAMPLES:DEPTH:CUTOFF ...     SAMPLES is a square, or aLEVELS,THRESHOLD
+// Arithmetic error is against double at the same settings, total error against double with 256 samples and depth
+// 8; with -a that is left out, which takes the longest. Time is that of one thread, as a ratio to float's of the
+// same settings, each the best of several tries in turn.
 #include "../cli/input.hpp"
 #include "../cli/renderer.hpp"
 #include "errors.hpp"
@@ -112,7 +113,7 @@ int read_setting(const char* text, Settings& s)
     return index_of(text, static_cast<size_t>(colon - text));
 }
 
-void measure(const char* scene, const char* setting, Settings s)
+void measure(const char* scene, const char* setting, Settings s, bool whole)
 {
     const int number = read_setting(setting, s);
     const Renderer& own = *cli::renderers[number];
@@ -149,8 +150,11 @@ void measure(const char* scene, const char* setting, Settings s)
         rays += n;
     printf("%s,%u,%u,%s,%llu,%.3f", scene, s.width, s.height, setting, static_cast<unsigned long long>(rays),
            own_time / single_time);
-    for (const Errors& e : {arithmetic, total})
-        printf(",%.3f,%.4f,%d,%.6f", e.psnr(), e.rms(), e.largest, e.off_share());
+    for (const Errors* e : {&arithmetic, &total})
+        if (whole || e == &arithmetic)
+            printf(",%.3f,%.4f,%d,%.6f", e->psnr(), e->rms(), e->largest, e->off_share());
+        else
+            fputs(",nan,nan,nan,nan", stdout);
     printf(",%ld\n", other);
 }
 
@@ -162,20 +166,27 @@ int main(int argc, char** argv)
 {
     using namespace qray::study;
     Settings s;
+    const bool whole = argc < 2 || strcmp(argv[1], "-a") != 0;
+    if (!whole) {
+        argv++;
+        argc--;
+    }
     if (argc < 4 || sscanf(argv[2], "%ux%u", &s.width, &s.height) != 2 || s.width * s.height > max_pixels)
-        fail("usage: measure SCENE WxH NUMBER:SAMPLES:DEPTH:CUTOFF ...", "");
+        fail("usage: measure [-a] SCENE WxH NUMBER:SAMPLES:DEPTH:CUTOFF ...", "");
     qray::scene::Error error;
     if (!qray::cli::read_scene(argv[1], description, error))
         fail(error.text, "");
     Settings best = s;
     best.grid = 16;
     best.depth = 8;
-    build(renderer("double"), best);
-    draw(renderer("double"), best, total_truth);
+    if (whole) {
+        build(renderer("double"), best);
+        draw(renderer("double"), best, total_truth);
+    }
     puts("scene,width,height,setting,rays,time/float,arithmetic psnr,arithmetic rms,arithmetic largest,"
          "arithmetic off,total psnr,total rms,total largest,total off,other objects");
     for (int i = 3; i < argc; i++) {
-        measure(argv[1], argv[i], s);
+        measure(argv[1], argv[i], s, whole);
         fflush(stdout);
     }
     return 0;

@@ -1,11 +1,14 @@
 // The counts that predictions start from (src/cli/counts.hpp), for calibration.
-//   operations SCENE WxH      one `name: value` a line: its counts, then its effects
+//   operations SCENE WxH [SAMPLES | aLEVELS,THRESHOLD]
+// One `name: value` a line: its counts, then its effects.
 #include "../cli/counts.hpp"
 #include "../cli/input.hpp"
 #include "../scene/builder.hpp"
 #include "../scene/effect_names.hpp"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 namespace {
 
@@ -19,8 +22,12 @@ int main(int argc, char** argv)
     using namespace qray;
     scene::Settings settings;
     if (argc < 3 || sscanf(argv[2], "%ux%u", &settings.width, &settings.height) != 2) {
-        fputs("usage: operations SCENE WxH\n", stderr);
+        fputs("usage: operations SCENE WxH [SAMPLES | aLEVELS,THRESHOLD]\n", stderr);
         return 2;
+    }
+    if (argc > 3) {
+        if (sscanf(argv[3], "a%u,%lf", &settings.levels, &settings.threshold) != 2)
+            settings.grid = static_cast<uint32_t>(lround(sqrt(atof(argv[3]))));
     }
     scene::Error error;
     if (!cli::read_scene(argv[1], description, error)

@@ -65,8 +65,8 @@ def effects():
 
 # What README may hold, and the words that its text must hold to be whole.
 REPORTS = {
-    "boards": (boards, lambda: [f"| {short} | {n} |" for short in runs.BOARDS.values() for n in runs.numbers()]
-               + list(BOARD_SCENES)),
+    "boards": (boards, lambda: list(BOARD_SCENES) + [f"| {short} | {n} |" for short in runs.BOARDS.values()
+                                                     for n in runs.numbers()]),
     **texts.REPORTS,
     "effects": (effects, lambda: ["+ " + name for name, *_ in ladder.STEPS[1:]]),
 }

@@ -1,5 +1,5 @@
-"""Firmware runs: one `make run` each, at most two at a time, remembered in build/study/cache under a hash of all
-that goes into it, so that what was measured once is not measured again until something changes."""
+"""Firmware runs: one `make run` each, at most two at a time, remembered in build/study/cache under a hash of
+all that goes into it, so that what was measured once is not measured again until something changes."""
 
 import concurrent.futures
 import glob
@@ -39,9 +39,11 @@ def numbers():
 
 
 def tree_hash(*folders):
+    """Of the programs in these folders and files."""
     digest = hashlib.sha256()
     for folder in folders:
-        for path in sorted(glob.glob(folder + "/**", recursive=True)):
+        inside = sorted(glob.glob(folder + "/**", recursive=True))
+        for path in [folder] if os.path.isfile(folder) else inside:
             if path.endswith((".hpp", ".cpp", ".py", ".mk", ".ld")):
                 with open(path, "rb") as file:
                     digest.update(path.encode() + b"\0" + file.read() + b"\0")
@@ -71,7 +73,8 @@ class Inputs:
         return self.compilers[tools]
 
 
-# Runs that should have worked, as (what, message); their results hold "refused", as of a scene that does not fit.
+# Runs that should have worked, as (what, message); their results hold "refused", as of a scene that does not
+# fit.
 failures = []
 
 
@@ -128,8 +131,8 @@ class Run:
     def does_not_fit(self):
         """The scene into the number system, or its firmware into the board."""
         check = ["build/qray", "compile", self.scene, "-q", "-n", self.number, "-o", "/dev/null"]
-        return (subprocess.run(check, capture_output=True).returncode == 1
-                or re.search("will not fit|overflowed|bytes of RAM are free", self.result["refused"]) is not None)
+        too_large = re.search("will not fit|overflowed|bytes of RAM are free", self.result["refused"])
+        return subprocess.run(check, capture_output=True).returncode == 1 or too_large is not None
 
     def measure(self, command):
         done = subprocess.run(command, capture_output=True, text=True, env=environment(), errors="replace")

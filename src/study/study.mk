@@ -10,6 +10,8 @@ build/study/%: build/obj/$(STUDY)/%.o $(filter-out %/main.o,$(COMMAND))
 	@mkdir -p $(@D)
 	@$(CXX) $(OPTIMISE) $(STATIC) $^ -pthread -o $@
 
+TEST_NEEDS += $(MEASURE)
+
 report: build/qray build/oracle $(MEASURE)
 	@$(PYTHON) $(STUDY)/report.py $(REPORT)
 study: build/qray $(MEASURE)

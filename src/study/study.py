@@ -1,8 +1,8 @@
 """make study: what accuracy costs, on this machine and on the boards, as CSV and plots in build/study.
 
-One dial at a time is turned around the default (q32, 1 sample, depth 5, cutoff 0.0014). Cost is measured on small
-pictures; error on larger ones of the same scene and settings, on this machine, as the boards draw the same bytes.
-study.py [quick]: one scene, small pictures, few settings"""
+One dial at a time is turned around the default (q32, 1 sample, depth 5, cutoff 0.0014). Cost is measured on
+small pictures; error on larger ones of the same scene and settings, on this machine, as the boards draw the
+same bytes. study.py [quick]: one scene, small pictures, few settings"""
 
 import csv
 import glob
@@ -57,7 +57,8 @@ def label(setting):
 
 def options(setting):
     _, samples, depth, cutoff = setting
-    sampling = {} if samples == "1" else {"ADAPTIVE": samples[1:]} if samples[0] == "a" else {"SAMPLES": samples}
+    sampling = {"ADAPTIVE": samples[1:]} if samples[0] == "a" else {"SAMPLES": samples}
+    sampling = {} if samples == "1" else sampling
     return {**sampling, **({"DEPTH": depth} if depth != 5 else {}),
             **({"CUTOFF": cutoff} if cutoff != 0.0014 else {})}
 
@@ -66,7 +67,8 @@ def commit():
     done = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True)
     if done.returncode != 0:
         return "unknown"
-    changed = subprocess.run(["git", "status", "--porcelain", "--", "include", "src"], capture_output=True, text=True)
+    changed = subprocess.run(["git", "status", "--porcelain", "--", "include", "src"], capture_output=True,
+                             text=True)
     return done.stdout.strip() + ("+changes" if changed.stdout.strip() else "")
 
 
@@ -85,17 +87,17 @@ def number(text):
         return text
 
 
-def desktop(scene, size, wanted):
-    """{setting: {rays, time/float, arithmetic psnr, ..., total off, other objects}}, or {} where it does not fit."""
+def desktop(scene, size, wanted, total=True):
+    """{setting: {rays, time/float, arithmetic psnr, ..., other objects}}, or {} where it does not fit."""
     with open(scene, "rb") as file:
         text = file.read()
     key = hashlib.sha256(json.dumps([
-        runs.tree_hash("include", "src/scene", "src/study"), hashlib.sha256(text).hexdigest(), size,
+        runs.tree_hash("include", "src/scene", "src/study/measure.cpp", "src/study/errors.hpp"), hashlib.sha256(text).hexdigest(), size, total,
         wanted, open("build/obj/flags").read()]).encode()).hexdigest()[:24]
     path = f"{runs.CACHE}/{key}.csv"
     if not os.path.exists(path):
         words = [f"{n}:{s}:{d}:{c}" for n, s, d, c in wanted]
-        out = runs.output_of(MEASURE, scene, size, *words)
+        out = runs.output_of(MEASURE, *([] if total else ["-a"]), scene, size, *words)
         with open(path + ".part", "w") as file:
             # A setting holds a comma where it is adaptive.
             for line in out.splitlines()[1:]:
@@ -132,7 +134,7 @@ class Study:
             self.errors[scene] = desktop(scene, self.error_size, self.settings)
         numbers = [(n, *DEFAULT[1:]) for n in runs.numbers()]
         for scene in self.scenes if self.quick else sorted(glob.glob("scenes/*.nff")):
-            self.everywhere[scene] = desktop(scene, self.error_size, numbers)
+            self.everywhere[scene] = desktop(scene, self.error_size, numbers, total=scene in self.errors)
 
     def measure_boards(self):
         plan = {(scene, board, setting): runs.Run(board, scene, setting[0], size, **options(setting))
@@ -146,7 +148,7 @@ class Study:
         self.profiles = {k: r.result for k, r in traced.items() if "refused" not in r.result}
         rays = {}
         for scene, size in self.scenes.items():
-            rays[scene] = desktop(scene, size, self.settings)
+            rays[scene] = desktop(scene, size, self.settings, total=False)
         for (scene, board, setting), run in plan.items():
             if "refused" in run.result:
                 continue
@@ -179,7 +181,8 @@ class Study:
             for scene in self.everywhere:
                 for setting, values in {**self.everywhere[scene], **self.errors.get(scene, {})}.items():
                     if values:
-                        out.writerow([scene, self.error_size, *setting, *values.values(), compiler, flags, at])
+                        out.writerow([scene, self.error_size, *setting, *values.values(), compiler, flags,
+                                      at])
 
     def draw(self, folder):
         os.makedirs(folder, exist_ok=True)

@@ -150,11 +150,12 @@ class Plot:
             self.labels.append((x, y, label, colour, pale, size))
 
     def finish(self):
-        """Places the labels: beside their marks, over none and over no other label; solid marks choose first."""
+        """Places the labels beside their marks, over none and over no other label; solid marks first."""
+        sides = [(1, 0), (-1, 0), (0, -1), (0, 1), (0.8, -0.8), (0.8, 0.8), (-0.8, -0.8), (-0.8, 0.8)]
         for x, y, label, colour, pale, size in sorted(self.labels, key=lambda l: l[4]):
             width, height, best = 6.1 * len(label), 11, None
             for far in (size + 3, size + 12, size + 22, size + 34):
-                for dx, dy in ((1, 0), (-1, 0), (0, -1), (0, 1), (0.8, -0.8), (0.8, 0.8), (-0.8, -0.8), (-0.8, 0.8)):
+                for dx, dy in sides:
                     left = x + dx * far - (width if dx < 0 else width / 2 if dx == 0 else 0)
                     top = y + dy * far - (height if dy < 0 else height / 2 if dy == 0 else 0)
                     box = (left, top, left + width, top + height)

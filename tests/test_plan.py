@@ -1,0 +1,109 @@
+"""qray plan: its options, the counts that it predicts from, and what it chooses from them.
+From the top of the repository, after make: python3 tests/test_plan.py"""
+
+import os
+import re
+import subprocess
+import unittest
+
+QRAY = "build/qray"
+OPERATIONS = "build/study/operations"
+
+
+def run(*words):
+    done = subprocess.run(words, capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+def plan(*words):
+    return run(QRAY, "plan", *words)
+
+
+def rows(text):
+    """The frontier: (chosen, number, samples, depth, instructions, seconds, dB)."""
+    out = []
+    for line in text.splitlines():
+        found = re.match(r"([* ]) (\w+) +(\d+|adaptive \S+) +(\d) +(\d+) +([\d.e+]+) +([\d.]+) ", line)
+        if found:
+            chosen, number, samples, depth, *values = found.groups()
+            out.append((chosen == "*", number, samples, int(depth), *map(float, values)))
+    return out
+
+
+class Plan(unittest.TestCase):
+    def test_options(self):
+        scene = "scenes/balls.nff"
+        for words, said in (((), "no scene"), ((scene,), "no board"), ((scene, "--board", "z80"), "z80"),
+                            ((scene, "--board", "microbit"), "what is wanted"),
+                            ((scene, "--board", "microbit", "--seconds", "1"), "--mhz"),
+                            ((scene, "--board", "microbit", "--seconds", "0"), "above 0"),
+                            ((scene, "--board", "microbit", "--error", "-3dB"), "above 0"),
+                            ((scene, "--board", "microbit", "--error", "bad"), "above 0"),
+                            ((scene, "-n", "q32"), "unknown option")):
+            status, out, err = plan(*words)
+            self.assertEqual((status, out), (2, ""), words)
+            self.assertIn(said, err, words)
+            self.assertEqual(err.count("\n"), 1, words)
+
+    def test_frontier_and_choice(self):
+        status, out, err = plan("scenes/floor.nff", "--board", "mps2_an385", "--mhz", "25", "--seconds", "4",
+                                "-s", "48x36")
+        self.assertEqual(status, 0, err)
+        found = rows(out)
+        self.assertGreater(len(found), 3)
+        for one, other in zip(found, found[1:]):
+            self.assertLess(one[5], other[5])  # seconds
+            self.assertLess(one[6], other[6])  # dB
+        within = [r for r in found if r[5] <= 4]
+        self.assertEqual([r for r in found if r[0]], within[-1:])
+        self.assertIn("make run BOARD=mps2_an385 SCENE=scenes/floor.nff NUMBER=", out)
+
+        status, out, err = plan("scenes/floor.nff", "--board", "mps2_an385", "--mhz", "25", "--error", "28dB",
+                                "-s", "48x36")
+        found = rows(out)
+        self.assertEqual([r for r in found if r[0]], [r for r in found if r[6] >= 28][:1])
+
+    def test_what_cannot_be_had(self):
+        status, out, err = plan("scenes/floor.nff", "--board", "microbit", "--mhz", "1", "--seconds", "0.001",
+                                "-s", "32x24")
+        self.assertEqual(status, 1)
+        self.assertIn("within what was asked for", err)
+        self.assertNotIn("make run", out)
+
+
+class Counts(unittest.TestCase):
+    def counts(self, scene, size, *words):
+        status, out, err = run(OPERATIONS, scene, size, *words)
+        self.assertEqual(status, 0, err)
+        return {k: float(v) for k, v in re.findall(r"^(\w+): ([\d.]+)$", out, re.M)}
+
+    # Three balls, no shadow, no mirror: each ray asks for each of them.
+    def test_ray_casting(self):
+        for samples in (1, 4):
+            c = self.counts("scenes/balls.nff", "32x24", str(samples))
+            self.assertEqual(c["pixel"], 32 * 24)
+            self.assertEqual(c["ray"], samples * 32 * 24)
+            self.assertEqual(c["sphere_test"], 3 * samples * 32 * 24)
+            self.assertEqual(c["test"], c["sphere_test"])
+            self.assertEqual(c["sphere_seen"], c["hit"])
+            for name in ("shadow_ray", "disc_test", "mirrored", "refracted", "checker"):
+                self.assertEqual(c[name], 0, name)
+
+    # The same rays as the command counts.
+    def test_rays(self):
+        for scene in ("floor", "glass", "showcase"):
+            c = self.counts(f"scenes/{scene}.nff", "32x24")
+            os.makedirs("build/study", exist_ok=True)
+            _, _, err = run(QRAY, f"scenes/{scene}.nff", "-n", "double", "-s", "32x24", "--stats", "-q", "-o",
+                            "build/study/plan.ppm")
+            stats = {k: float(v) for k, v in re.findall(r"^(\w+)_rays: (\d+)", err, re.M)}
+            self.assertEqual(c["sample"], stats["camera"])
+            self.assertEqual(c["shadow_ray"], stats["shadow"])
+            self.assertEqual(c["mirrored"], stats["mirrored"])
+            self.assertEqual(c["refracted"], stats["refracted"])
+            # Every ray that is traced is counted where it looks for what it meets.
+            self.assertEqual(c["ray"], c["sample"] + c["mirrored"] + c["refracted"])
+
+
+if __name__ == "__main__":
+    unittest.main()
