@@ -90,9 +90,16 @@ def check(path, tools, budgets):
         if kind == 1 and index < len(elf.sections) and elf.sections[index][2] & 1:
             if symbol != ROW and not any(low <= address < high for low, high in host):
                 faults.append(f"{symbol} is a mutable global of {size} bytes")
+    # Constructors have two names, of which the compiler states one.
+    names = {}
+    for symbol, address, _, kind, index in elf.symbols:
+        if kind == 2 and index != 0:
+            names.setdefault(address, set()).add(symbol)
+    stated_frames = {address: frames[name] for address in names for name in names[address] & frames.keys()}
+
     helpers = HELPERS.get(number, [INTEGER, SINGLE])
-    for function, _ in elf.functions.values():
-        if function not in frames and function not in ASSEMBLY:
+    for address, (function, _) in elf.functions.items():
+        if address not in stated_frames and function not in ASSEMBLY:
             if not any(h.match(function) for h in helpers):
                 faults.append(f"{function} of the compiler's library is not for {number}")
     faults += [f"{function} has a frame of no fixed size" for function in dynamic]
@@ -102,7 +109,7 @@ def check(path, tools, budgets):
     faults += program.problems
     faults += ["recursion by jumps: " + " -> ".join(cycle) for cycle in program.jump_cycles()]
     for address in program.memo:
-        stated = frames.get(program.name(address))
+        stated = stated_frames.get(address)
         if stated is None:
             continue
         followed = program.own_depth(address)
