@@ -65,7 +65,7 @@ struct Scene {
 
     [[no_unique_address]] Maybe<Tree, E.tree> tree{};
 
-    Table<Matte<N>, true> mattes;
+    Table<Matte<N>, true> mattes{};
     [[no_unique_address]] Table<Highlight<N>, E.highlight> highlights{};
     [[no_unique_address]] Table<Mirror<N>, E.mirror> mirrors{};
     [[no_unique_address]] Table<Transmit<N>, E.transmit || E.see_through> transmits{};

@@ -469,9 +469,11 @@ private:
             e.highlight = e.highlight || f.highlight > 0;
             e.fractional_shine = e.fractional_shine || (f.highlight > 0 && f.shine != floor(f.shine));
             transmits = transmits || f.transmit > 0;
-            const bool deep = settings.depth > 1;
-            e.mirror = e.mirror || (deep && f.mirror > 0 && f.mirror >= settings.cutoff);
-            e.transmit = e.transmit || (deep && f.transmit > 0 && f.transmit + f.mirror >= settings.cutoff);
+            // What is totally reflected has both weights together.
+            const double most = f.transmit > 0 ? f.transmit + f.mirror : f.mirror;
+            const bool spawns = settings.depth > 1 && most >= settings.cutoff;
+            e.mirror = e.mirror || (spawns && f.mirror > 0);
+            e.transmit = e.transmit || (spawns && f.transmit > 0);
         }
         e.highlight = e.highlight && e.lights();
         e.fractional_shine = e.fractional_shine && e.lights();

@@ -1,0 +1,147 @@
+"""Compiled scenes: with the library alone, the header that `qray compile` writes draws the bytes that `qray`
+draws, and compiles without a warning. From the top of the repository: python3 tests/test_compile.py"""
+
+import concurrent.futures
+import glob
+import os
+import re
+import shutil
+import subprocess
+import unittest
+
+FOLDER = "build/compile"
+NUMBERS = ["q16", "q32", "float", "double"]
+FLAGS = ["-std=c++20", "-O1", "-Wall", "-Wextra", "-Wconversion", "-Wsign-conversion", "-Wshadow",
+         "-Wdouble-promotion", "-Werror", "-ffp-contract=off", "-Iinclude"]
+PROGRAM = """#include <qray/qray.hpp>
+
+#include "%s"
+
+#include <stdio.h>
+
+int main()
+{
+    static uint8_t row[3 * scene::width];
+    printf("P6\\n%%u %%u\\n255\\n", unsigned{scene::width}, unsigned{scene::height});
+    const auto sink = [](uint32_t, uint32_t, const uint8_t* rgb, uint32_t bytes) {
+        return fwrite(rgb, 1, bytes, stdout) == bytes;
+    };
+    return qray::render<qray::Rgb888>(scene::scene, row, 1, sink) ? 0 : 1;
+}
+"""
+VIEW = "v from 0 0 5 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 16 12\n"
+
+
+def qray(*arguments):
+    return subprocess.run(["build/qray", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+
+def compile_and_draw(scene, number, compiler="g++", options=()):
+    """(picture of the compiled scene, of the command)"""
+    name = f"{FOLDER}/{os.path.basename(scene).removesuffix('.nff')}-{number}-{compiler}"
+    options = ["-n", number, *options]
+    made = qray("compile", scene, *options, "-o", name + ".hpp")
+    assert made.returncode == 0 and not made.stdout, made.stderr
+    with open(name + ".cpp", "w") as file:
+        file.write(PROGRAM % os.path.basename(name + ".hpp"))
+    built = subprocess.run([compiler, *FLAGS, name + ".cpp", "-o", name], stdout=subprocess.PIPE,
+                           stderr=subprocess.STDOUT, text=True)
+    assert built.returncode == 0, built.stdout
+    drawn = subprocess.run([name], stdout=subprocess.PIPE, check=True).stdout
+    return drawn, qray(scene, *options, "-q", "-o", "-").stdout
+
+
+def write(name, text):
+    path = f"{FOLDER}/{name}.nff"
+    with open(path, "w") as file:
+        file.write(text)
+    return path
+
+
+class Compile(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(FOLDER, ignore_errors=True)
+        os.makedirs(FOLDER)
+
+    def same(self, cases):
+        with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+            for case, pictures in [(case, pool.submit(compile_and_draw, *case)) for case in cases]:
+                with self.subTest(case=case):
+                    drawn, expected = pictures.result()
+                    self.assertEqual(drawn, expected)
+
+    def test_everything_in_each_number_system(self):
+        self.same([("scenes/showcase.nff", number, compiler, ("-s", "32x24"))
+                   for number in NUMBERS for compiler in ("g++", "clang++")])
+
+    def test_each_scene(self):
+        scenes = sorted(glob.glob("scenes/*.nff"))
+        self.assertGreater(len(scenes), 10)
+        options = [("-r", "4"), ("-a", "3,0.1"), ("-d", "9", "--cutoff", "0.3")]
+        self.same([(scene, NUMBERS[k % len(NUMBERS)], "g++", ("-s", "32x24", *options[k % 3]))
+                   for k, scene in enumerate(scenes)])
+
+    # Glass that mirrors too little for a ray, but for total reflection, where all adds up.
+    def test_weights_about_the_cutoff(self):
+        self.same([("scenes/glass.nff", "q32", "g++", ("-s", "32x24", "--cutoff", cutoff))
+                   for cutoff in ("0", "0.3", "0.95", "1")])
+
+    # A sphere, and what may be lacking around one.
+    def test_little_scenes(self):
+        ball = "s 0 0 0 1\n"
+        scenes = {
+            "nothing": "b 0.2 0.4 0.6\n", "unlit": ball, "lamp_only": "l 1 2 3\n",
+            "dropped": "l 1 2 3\np 3 0 0 0 1 1 1 2 2 2\nf 1 1 1 1 0 0 0 0\n" + ball,
+            "far_lamp": "l 1e9 2e9 3e9\n" + ball, "farther_lamp": "l 1e14 2e14 3e14\n" + ball,
+        }
+        self.same([(write(name, VIEW + text), number) for number in ("q32", "float")
+                   for name, text in scenes.items()])
+
+    def header(self, text, *options):
+        made = qray("compile", write("header", text), *options, "-o", f"{FOLDER}/header.hpp")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        with open(f"{FOLDER}/header.hpp") as file:
+            return file.read()
+
+    def test_the_header_opens_with_the_scenes_comment(self):
+        text = self.header("\n#\n#  One ball. \\\n# More.\n" + VIEW)
+        self.assertEqual(text.split("\n")[0], "// One ball. \\.")
+        self.assertRegex(self.header(VIEW), r"^// header.nff by qray compile: q32, 16 x 12 pixels, ")
+
+    def test_the_header_holds_what_the_scene_calls_for(self):
+        text = self.header("shadows off\n" + VIEW + "l 1 2 3\ns 0 0 0 1\ns 1 0 0 1\n", "-s", "64x48")
+        self.assertEqual(re.findall(r"\.(\w+) = true", text), ["sphere", "light"])
+        self.assertEqual(re.findall(r"constexpr qray::(\w+)<Number>", text), ["Sphere", "Matte", "Light"])
+        self.assertIn("width = 64, height = 48;", text)
+        self.assertRegex(text, r"\.spheres = \{spheres, 2\}")
+        for word in ("shadow", "max_depth", "cutoff", "threshold", "disc"):
+            self.assertNotIn(word, text.split("#pragma once")[1])
+
+    def test_errors_are_those_of_the_command(self):
+        bad = write("bad", VIEW + "s 0 0 0 x\n")
+        for arguments, status in (((bad,), 1), (("no_such.nff",), 1), ((), 2), ((bad, "-r", "3"), 2),
+                                  ((bad, "-n", "q8"), 2), ((bad, "-a", "2", "-r", "4"), 2)):
+            drawn = qray(*arguments, "-o", f"{FOLDER}/bad.ppm")
+            made = qray("compile", *arguments, "-o", f"{FOLDER}/bad.hpp")
+            self.assertEqual((made.returncode, made.stdout), (status, b""), arguments)
+            self.assertEqual(made.stderr.replace(b"qray compile", b"qray"), drawn.stderr, arguments)
+            self.assertEqual(made.stderr.count(b"\n"), 1)
+            self.assertFalse(os.path.exists(f"{FOLDER}/bad.hpp"))
+        self.assertEqual([name for name in os.listdir(FOLDER) if name.startswith(".")], [])
+
+    def test_the_header_is_whole_or_as_it_was(self):
+        good = write("good", VIEW + "s 0 0 0 1\n")
+        out = f"{FOLDER}/whole.hpp"
+        self.assertEqual(qray("compile", good, "-o", out).returncode, 0)
+        with open(out) as file:
+            before = file.read()
+        self.assertEqual(qray("compile", write("bad", "v from"), "-o", out).returncode, 1)
+        with open(out) as file:
+            self.assertEqual(file.read(), before)
+        self.assertEqual(qray("compile", good, "-o", "-").stdout.decode(), before)
+        self.assertEqual(qray("compile", good, "-o", "/dev/full").returncode, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
