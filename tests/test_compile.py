@@ -38,7 +38,8 @@ def qray(*arguments):
 
 def compile_and_draw(scene, number, compiler="g++", options=()):
     """(picture of the compiled scene, of the command)"""
-    name = f"{FOLDER}/{os.path.basename(scene).removesuffix('.nff')}-{number}-{compiler}"
+    name = "-".join([os.path.basename(scene).removesuffix(".nff"), number, compiler, *options])
+    name = f"{FOLDER}/{name}"
     options = ["-n", number, *options]
     made = qray("compile", scene, *options, "-o", name + ".hpp")
     assert made.returncode == 0 and not made.stdout, made.stderr
