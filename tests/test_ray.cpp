@@ -40,7 +40,9 @@ TYPED_TEST(RayTest, KnowsOnWhichSideItLeavesASurface)
 TYPED_TEST(RayTest, OfTwoHitsTheNearerOrElseTheFirstInTheFileComesBefore)
 {
     using M = make<TypeParam>;
-    const Hit<TypeParam> hit{M::length(2), make_tag(5, 9), Kind::cone, 0};
+    Hit<TypeParam> hit{};
+    hit.t = M::length(2);
+    hit.tag = make_tag(5, 9);
     EXPECT_TRUE(hit.after(M::length(1.5), make_tag(6, 0)));
     EXPECT_FALSE(hit.after(M::length(2.5), make_tag(4, 0)));
     EXPECT_TRUE(hit.after(M::length(2), make_tag(4, 4095))); // whatever the materials

@@ -21,7 +21,7 @@ COMPILERS = ["g++", "clang++"]
 # DESIGN's table: no header includes one of a higher floor.
 FLOORS = [
     "base",
-    "fixed math number",
+    "fixed math number q16",
     "vec ray narrow plane corners reflection",
     "sphere disc cone polygon patch lattice value_noise checker stripes gradient rings noise marble wood brick"
     " material highlight mirror transmit light sun camera",
@@ -32,7 +32,7 @@ FLOORS = [
 ]
 FLOOR = {name: floor for floor, names in enumerate(FLOORS) for name in names.split()}
 
-SYSTEMS = ["q32", "Float", "Double"]
+SYSTEMS = ["q16", "q32", "Float", "Double"]
 # Where floating point may be spoken of: number systems that are it, square roots for them, bytes from their samples, and the tree,
 # which q32 only uses where there is a floating-point unit.
 FLOATING = {"base", "number", "tree", "sampler"}
@@ -236,10 +236,11 @@ def test_object(folder, system):
 
 
 def test_integers_alone(folder):
-    """Without the tree q32 takes no floating-point register: the compiler is forbidden to use one."""
-    path = kernel(folder, "q32", "[] { auto e = qray::everything(64); e.tree = false; return e; }()")
-    result = run("g++", *FLAGS, "-O1", "-mgeneral-regs-only", "-c", path, "-o", os.path.join(folder, "integers.o"))
-    check("a render in q32 without a tree has no floating point", [] if result.returncode == 0 else [result.stdout[:2000]])
+    """Without the tree fixed point takes no floating-point register: the compiler is forbidden to use one."""
+    for system in ["q16", "q32"]:
+        path = kernel(folder, system, "[] { auto e = qray::everything(64); e.tree = false; return e; }()")
+        result = run("g++", *FLAGS, "-O1", "-mgeneral-regs-only", "-c", path, "-o", os.path.join(folder, "integers.o"))
+        check(f"a render in {system} without a tree has no floating point", [] if result.returncode == 0 else [result.stdout[:2000]])
 
 
 def test_the_test(folder):
