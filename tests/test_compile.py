@@ -86,7 +86,7 @@ class Compile(unittest.TestCase):
     # Glass that mirrors too little for a ray, but for total reflection, where all adds up.
     def test_weights_about_the_cutoff(self):
         self.same([("scenes/glass.nff", "q32", "g++", ("-s", "32x24", "--cutoff", cutoff))
-                   for cutoff in ("0", "0.3", "0.95", "1")])
+                   for cutoff in ("0", "0.3", "0.98", "0.98000000001", "1")])
 
     # A sphere, and what may be lacking around one.
     def test_little_scenes(self):

@@ -469,11 +469,12 @@ private:
             e.highlight = e.highlight || f.highlight > 0;
             e.fractional_shine = e.fractional_shine || (f.highlight > 0 && f.shine != floor(f.shine));
             transmits = transmits || f.transmit > 0;
-            // What is totally reflected has both weights together.
-            const double most = f.transmit > 0 ? f.transmit + f.mirror : f.mirror;
-            const bool spawns = settings.depth > 1 && most >= settings.cutoff;
-            e.mirror = e.mirror || (spawns && f.mirror > 0);
-            e.transmit = e.transmit || (spawns && f.transmit > 0);
+            // As the tracer weighs them: what is totally reflected has both weights together.
+            const auto mirror = s.mirrors.data[i].amount, transmit = s.transmits.data[i].amount;
+            const auto most = mirror > N::one - transmit ? N::one : mirror + transmit;
+            const bool spawns = settings.depth > 1 && most >= s.cutoff;
+            e.mirror = e.mirror || (spawns && mirror > N::zero);
+            e.transmit = e.transmit || (spawns && transmit > N::zero);
         }
         e.highlight = e.highlight && e.lights();
         e.fractional_shine = e.fractional_shine && e.lights();
