@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include <qray/reflection.hpp>
+
 #include "scene/convert.hpp"
 
 namespace hostile {
@@ -123,12 +125,6 @@ constexpr double ulp()
 }
 
 template <class N>
-constexpr double epsilon()
-{
-    return sizeof(typename N::Length) == 4 ? 0x1p-23 : 0x1p-52;
-}
-
-template <class N>
 qray::Point<N> to_point(const Double3& p)
 {
     return qray::scene::Convert<N>::point(p);
@@ -138,21 +134,23 @@ qray::Direction<N> to_direction(const Double3& d)
 {
     return qray::scene::Convert<N>::direction(qray::scene::unit(d));
 }
-// A direction as a tracer has it, made unit by the number system, and now and then as dozens of reflections leave
-// it: its length off by 16 units in the last place.
+// A direction as a tracer has it: made unit by the number system, and now and then mirrored 16 times.
 template <class N>
 qray::Direction<N> made_direction(Random& random, const Double3& d)
 {
     using namespace qray::scene;
-    qray::Direction<N> u = Convert<N>::direction(unit(d) * random.in(0.5, 1));
+    Double3 from = unit(d);
+    Double3 mirrors[16];
+    const int bounces = random.chance(0.125) ? 16 : 0;
+    for (int i = 0; i < bounces; i++) {
+        mirrors[i] = direction(random);
+        from = from - mirrors[i] * (2 * dot(from, mirrors[i]));
+    }
+    qray::Direction<N> u = Convert<N>::direction(from * random.in(0.5, 1));
     qray::normalise<N>(u, u);
-    if (random.chance(0.125)) {
-        const double ulps = random.chance(0.5) ? 16 : -16;
-        double step = epsilon<N>();
-        if constexpr (N::is_fixed)
-            step = std::ldexp(1, -N::Unit::frac);
-        const double drift = 1 + ulps * step;
-        u = Convert<N>::direction(Double3{exact<double>(u.x), exact<double>(u.y), exact<double>(u.z)} * drift);
+    for (int i = bounces - 1; i >= 0; i--) {
+        const auto n = to_direction<N>(mirrors[i]);
+        u = qray::mirrored<N>(u, n, N::unit(qray::dot<N>(u, n)));
     }
     return u;
 }
@@ -170,17 +168,20 @@ qray::Ray<N> free_ray(Random& random, const Double3& from, const Double3& toward
 // All points lie in a ball of this radius.
 inline constexpr double world = 62;
 
-// The meetings of a line with a surface without its rims: how many, at which t, and how far within the rims
-// (negative: outside them).
+// The meetings of a line with a surface without its rims: how many, at which t, how far within the rims (negative:
+// outside them), and how steeply: the sine of the angle at which the line goes through, so that a surface that is off
+// by h is met h / steep sooner or later.
 template <class R>
 struct Meetings {
     int count = 0;
     R t[2]{};
     R within[2]{};
-    void add(R at, R inside)
+    R steep[2]{};
+    void add(R at, R inside, R sine)
     {
         t[count] = at;
         within[count] = inside;
+        steep[count] = sine;
         count++;
     }
     void sort()
@@ -188,7 +189,14 @@ struct Meetings {
         if (count == 2 && t[1] < t[0]) {
             std::swap(t[0], t[1]);
             std::swap(within[0], within[1]);
+            std::swap(steep[0], steep[1]);
         }
+    }
+    // Is meeting i within the rims or without them, and ahead or behind, whatever an error of the height of a few ulp does?
+    bool certain(int i, R few) const
+    {
+        const R along = few * (1 + 1 / (steep[i] > few ? steep[i] : few));
+        return size(within[i]) > along && size(t[i]) > along;
     }
 };
 

@@ -84,6 +84,7 @@ void rows_in(const Selection& selection, uint64_t rays, F f)
 template <class F>
 void each_row(const Selection& selection, uint64_t rays, F f)
 {
+    rows_in<qray::q16>(selection, rays, f);
     rows_in<qray::q32>(selection, rays, f);
     rows_in<qray::Float>(selection, rays, f);
     rows_in<qray::Double>(selection, rays, f);

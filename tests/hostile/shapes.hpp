@@ -138,8 +138,8 @@ struct SphereTrial {
         if (rest < 0)
             return m;
         const R half = root(rest / d2);
-        m.add(b - half, r);
-        m.add(b + half, r);
+        m.add(b - half, r, half / r);
+        m.add(b + half, r, half / r);
         return m;
     }
     // How far a point lies outside.
@@ -198,7 +198,7 @@ struct DiscTrial {
         if (den == 0)
             return m;
         const R t = dot(v, n) / den;
-        m.add(t, exact<R>(shape.radius) - length(d * t - v));
+        m.add(t, exact<R>(shape.radius) - length(d * t - v), size(den));
         return m;
     }
     Wide outside(const Vec3<Wide>& p) const
@@ -314,10 +314,15 @@ struct ConeTrial {
             return m;
         const R q = bb < 0 ? root(disc) - bb : -(root(disc) + bb), half = exact<R>(shape.half) / scale;
         // Both nappes: the rims leave one.
+        const auto meeting = [&](R tau) {
+            const R z = oz + tau * dz, sine = root(disc) / size(rho + s * tau * dz);
+            // Almost along a generator the roots are as uncertain as B / A is, whose B is known to an ulp of rho.
+            m.add(b + tau, half - size(z), sine < size(aa) / (1 + rho) ? sine : size(aa) / (1 + rho));
+        };
         if (aa != 0)
-            m.add(b + q / aa, half - size(oz + q / aa * dz));
+            meeting(q / aa);
         if (q != 0)
-            m.add(b + cc / q, half - size(oz + cc / q * dz));
+            meeting(cc / q);
         m.sort();
         return m;
     }
@@ -394,7 +399,7 @@ Meetings<R> meet_figure(const qray::Point<N>* corners, uint32_t count, const qra
     Meetings<R> m;
     if (dot(d, n) == 0)
         return m;
-    const R t = dot(exact3<R>(corners[0]) - o, n) / dot(d, n);
+    R t = dot(exact3<R>(corners[0]) - o, n) / dot(d, n);
     // Across the ray, in its own length.
     const R ax = size(d.x), ay = size(d.y), az = size(d.z);
     const auto turned = [&](const Vec3<R>& v) {
@@ -402,8 +407,12 @@ Meetings<R> meet_figure(const qray::Point<N>* corners, uint32_t count, const qra
     };
     const Vec3<R> e = turned(d);
     Vec3<R> flat[16];
+    R low = 1000, high = -1000;
     for (uint32_t i = 0; i < count; i++) {
-        const Vec3<R> v = turned(exact3<R>(corners[i]) - o);
+        const Vec3<R> corner = exact3<R>(corners[i]) - o, v = turned(corner);
+        const R depth = dot(corner, d) / dot(d, d);
+        low = depth < low ? depth : low;
+        high = depth > high ? depth : high;
         flat[i] = {v.x * e.z - v.z * e.x, v.y * e.z - v.z * e.y, 0};
     }
     bool inside = false;
@@ -420,7 +429,9 @@ Meetings<R> meet_figure(const qray::Point<N>* corners, uint32_t count, const qra
         const R distance = length(a + ab * k);
         nearest = distance < nearest ? distance : nearest;
     }
-    m.add(t, inside ? nearest : -nearest);
+    // Almost edge on the stored normal says less than the corners do.
+    t = t < low ? low : t > high ? high : t;
+    m.add(t, inside ? nearest : -nearest, size(dot(d, n)));
     return m;
 }
 

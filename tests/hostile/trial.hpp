@@ -195,9 +195,9 @@ private:
         tally.clearance = std::fmin(tally.clearance, next.outward ? start : -start);
         const Meetings<Wide> m = trial.template meet<Wide>(next);
         // The other side of a curved surface: the farther root, for a ray that heads in. A chord that is nowhere deeper
-        // than a few ulp may end anywhere.
+        // than a few ulp may end anywhere; in a sphere, which has no rim to go out at, it has an end all the same.
         const bool inward = Trial::curved && !next.outward;
-        const bool clear = inward && m.count == 2 && m.within[1] > a_little && m.t[1] > a_little;
+        const bool clear = inward && m.count == 2 && m.within[1] > 0 && m.t[1] > 0 && m.certain(1, a_little);
         bool deep = false;
         if (clear) {
             const Wide middle = (m.t[0] + m.t[1]) / 2;
@@ -207,7 +207,7 @@ private:
         const bool hit = nearest(next, h);
         if (hit && (!inward || (deep && exact<Wide>(h.t) < m.t[1] / 2)))
             fault(Fault::self_hit, next);
-        if (clear && !hit)
+        if ((deep || (inward && Trial::effects.sphere)) && !hit)
             fault(Fault::leak, next);
         next.from = {qray::Tag::none};
         const bool again = nearest(next, h);
@@ -221,13 +221,10 @@ private:
     {
         // Rims, tangents and origins on the surface may be seen either way; not the rest.
         int expected = 0;
-        // Where a cone is grazed t is as uncertain as the chord is short.
-        const Wide chord = m.count == 2 ? m.t[1] - m.t[0] : Wide{0};
-        if (Trial::effects.cone && !(chord > 0))
+        if (Trial::effects.cone && m.count == 0) // a tangent near a rim may have one
             return;
-        const Wide margin = Trial::effects.cone ? a_little * (1 + 40 / chord) : a_little;
         for (int i = 0; i < m.count; i++) {
-            if (size(m.within[i]) < margin || size(m.t[i]) < margin)
+            if (!m.certain(i, a_little))
                 return;
             expected += m.t[i] > 0 && m.within[i] > 0;
         }
