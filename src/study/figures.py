@@ -11,6 +11,7 @@ import svg
 COLOURS = {"q16": "#c0392b", "q32": "#1f5fa8", "float": "#1a8f4c", "double": "#8e44ad"}
 OTHERS = ["#b9770e", "#117a8b"]
 SHAPES = {"q16": "triangle", "q32": "circle", "float": "square", "double": "diamond"}
+COST = "instructions/pixel at error size"
 BITS = {"q16": 16, "q32": 32, "float": 32, "double": 64}
 
 
@@ -19,10 +20,11 @@ def colour(number):
 
 
 def frontier_of(points):
-    """The points that no other is both cheaper and better than: [(cost, gain, ...)], cheapest first."""
+    """The points that no other is both cheaper and as good as: [(cost, decibels, ...)], cheapest first. Less
+    than 0.05 dB is no gain."""
     out = []
     for point in sorted(points, key=lambda p: (p[0], -p[1])):
-        if not out or point[1] > out[-1][1]:
+        if not out or point[1] > out[-1][1] + 0.05:
             out.append(point)
     return out
 
@@ -43,11 +45,11 @@ def name_of(scene):
 def frontier(study, board, path):
     """Accuracy against instructions, a plot for each scene."""
     scenes, width = list(study.scenes), 330
-    out = svg.Svg(max(60 + len(scenes) * (width + 20), 760), 430)
+    out = svg.Svg(max(60 + len(scenes) * (width + 20), 760), 440)
     rows = [r for r in study.rows if r["board"] == board]
     y_range = range_of([r["total psnr"] for r in rows])
     for k, scene in enumerate(scenes):
-        points = [(r["instructions/pixel"], r["total psnr"], r) for r in rows if r["scene"] == scene]
+        points = [(r[COST], r["total psnr"], r) for r in rows if r["scene"] == scene]
         best = frontier_of(points)
         plot = svg.Plot(out, (60 + k * (width + 20), 70, width, 290), range_of([p[0] for p in points], True),
                         y_range, name_of(scene), "instructions a pixel", "accuracy (dB)" if k == 0 else None)
@@ -73,9 +75,10 @@ def frontier(study, board, path):
     out.line([(x, 40), (x + 24, 40)], "#223", 1.4)
     out.text(x + 30, 44, "nothing else is both cheaper and better;  pale: something is", 12)
     size = study.error_size.replace("x", " × ")
-    out.text(60, 412, f"Accuracy: PSNR to double with 256 samples and depth 8, {size} pixels. What a label "
-             "does not say is q32, 1 sample, depth 5, cutoff 0.0014; a2 and a3 sample adaptively.", 11,
-             colour=svg.GREY)
+    out.text(60, 412, f"Accuracy: PSNR to double with 256 samples and depth 8, {size} pixels. Instructions: of "
+             "its rays, each as in a small picture.", 11, colour=svg.GREY)
+    out.text(60, 427, "What a label does not say is q32, 1 sample, depth 5, cutoff 0.0014; a2 and a3 sample "
+             "adaptively.", 11, colour=svg.GREY)
     out.write(path, f"{runs.BOARDS[board]}: accuracy against instructions")
 
 
@@ -89,8 +92,7 @@ def bits(study, path):
     known = [p for v in values.values() for p, _ in v]
     low, _, _ = range_of(known + [99])
     plot = svg.Plot(out, (60, 60, 550, 270), (0, len(values), False), (low, 103, False),
-                    "Error of the arithmetic alone: a mark for each scene", "", "accuracy (dB)")
-    out.rect(58, 331, 560, 20, "white")
+                    "Error of the arithmetic alone: a mark for each scene", None, "accuracy (dB)")
     for k, (n, points) in enumerate(values.items()):
         for i, (p, scene) in enumerate(sorted(points)):
             spread = (i - (len(points) - 1) / 2) * min(0.05, 0.7 / max(len(points), 1))
@@ -123,8 +125,8 @@ def samples(study, path):
     scene = list(study.scenes)[-1]
     chosen = [r for r in study.rows if r["scene"] == scene and r["number"] == "q32"
               and r["setting"][2:] == study_file.DEFAULT[2:]]
-    base = {r["board"]: r["instructions/pixel"] for r in chosen if r["samples"] == "1"}
-    points = [(mean_samples(study, scene, r["setting"]), r["instructions/pixel"] / base[r["board"]], r)
+    base = {r["board"]: r[COST] for r in chosen if r["samples"] == "1"}
+    points = [(mean_samples(study, scene, r["setting"]), r[COST] / base[r["board"]], r)
               for r in chosen]
     x_range = range_of([p[0] for p in points], True, 0.08)
     left = svg.Plot(out, (60, 70, 345, 290), x_range, range_of([p[1] for p in points], True, 0.08),
@@ -132,7 +134,7 @@ def samples(study, path):
     left.line([(max(left.x.low, left.y.low), max(left.x.low, left.y.low)),
                (min(left.x.high, left.y.high), min(left.x.high, left.y.high))], "#aab", 1, "4 3")
     for board, i in boards.items():
-        own = sorted(p[:2] for p in points if p[2]["board"] == board)
+        own = sorted(p[:2] for p in points if p[2]["board"] == board and p[2]["samples"][0] != "a")
         for a, b, r in points:
             if r["board"] == board:
                 adaptive = r["samples"][0] == "a"

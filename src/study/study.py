@@ -8,6 +8,7 @@ import csv
 import glob
 import hashlib
 import json
+import math
 import os
 import subprocess
 import sys
@@ -154,11 +155,17 @@ class Study:
                 continue
             r, e = run.result, self.errors[scene][setting]
             near = self.profiles.get((scene, board, setting[0])) or self.profiles[first, board, setting[0]]
+            # What a pixel of the larger picture takes: adaptive sampling needs more in a small one.
+            pixels = math.prod(map(int, self.error_size.split("x")))
+            per_ray = r["instructions"] / rays[scene][setting]["rays"]
+            large = per_ray * e["rays"] / pixels
+            per = near["cycles"] / near["instructions"]
             self.rows.append({
                 "scene": scene, "size": run.size, "board": board, "number": setting[0], "samples": setting[1],
                 "depth": setting[2], "cutoff": setting[3], "instructions/pixel": r["instructions/pixel"],
-                "instructions/ray": round(r["instructions"] / rays[scene][setting]["rays"], 1),
-                "cycles/pixel": round(r["instructions/pixel"] * near["cycles"] / near["instructions"], 1),
+                "instructions/ray": round(per_ray, 1), "cycles/pixel": round(r["instructions/pixel"] * per, 1),
+                "instructions/pixel at error size": round(large, 1),
+                "cycles/pixel at error size": round(large * per, 1),
                 "flash": r["flash"], "ram": r["ram"], "stack": r["stack"], **e,
                 "setting": setting})
 

@@ -122,7 +122,7 @@ class Plot:
         for value, named in self.x.ticks():
             at = self.x(value)
             svg.line([(at, self.top), (at, self.bottom)], "#ccd" if named else "#eef")
-            if named:
+            if named and x_name is not None:
                 svg.text(at, self.bottom + 15, short(value), 11, "middle", GREY)
         for value, named in self.y.ticks():
             at = self.y(value)
@@ -130,7 +130,7 @@ class Plot:
             if named and y_name is not None:
                 svg.text(self.left - 6, at + 4, short(value), 11, "end", GREY)
         svg.rect(self.left, self.top, width, height, stroke="#889")
-        svg.text((self.left + self.right) / 2, self.bottom + 32, x_name, 12, "middle")
+        svg.text((self.left + self.right) / 2, self.bottom + 32, x_name or "", 12, "middle")
         if y_name:
             svg.text(self.left - 38, (self.top + self.bottom) / 2, y_name, 12, "middle", turn=-90)
 
