@@ -25,9 +25,9 @@ using study::Calibration;
 static_assert(sizeof(Calibration::cost) / sizeof(double) == operation_count, "make calibrate");
 
 // Pictures are judged by some of their rows: enough to hold this many pixels, and not fewer than these rows.
-constexpr uint32_t wanted_pixels = 3000, wanted_rows = 8;
+constexpr uint32_t wanted_pixels = 4000, wanted_rows = 8, most_rows = 64;
 constexpr size_t row_bytes = 3 * scene::Limits::resolution;
-uint8_t truth[size_t{2} * wanted_rows * row_bytes], row[row_bytes];
+uint8_t truth[size_t{most_rows} * row_bytes], row[row_bytes];
 
 struct Sampling {
     uint32_t grid, levels;
@@ -90,22 +90,28 @@ double instructions(const Calibration& costs, const OperationCounts& counts, con
     return sum * (s.levels != 0 ? costs.adaptive : s.grid != 1 ? costs.grid : 1);
 }
 
-double flash(const Calibration& costs, const Effects& effects, const scene::Description& d)
+// Of a table of every program's bytes and of each effect's.
+double bytes(const double* table, const Effects& effects)
 {
-    double sum = costs.effects[0];
+    double sum = table[0];
     for (size_t i = 0; i < sizeof study::effect_order / sizeof *study::effect_order; i++)
         for (const scene::EffectName& e : scene::effect_names)
             if (strcmp(e.name, study::effect_order[i]) == 0 && effects.*e.effect)
-                sum += costs.effects[i + 1];
+                sum += table[i + 1];
+    return sum;
+}
+
+double flash(const Calibration& costs, const Effects& effects, const scene::Description& d)
+{
     // The tables of a scene of usual size are in that already.
     const double more = d.object_count > 16 ? d.object_count - 16 : 0;
-    return sum + 48 * more + 12.0 * d.vertex_count;
+    return bytes(costs.flash_bytes, effects) + 48 * more + 12.0 * d.vertex_count;
 }
 
 double ram(const Calibration& costs, const Effects& effects, const Settings& s, uint32_t width)
 {
     const double deeper = effects.transmit && s.depth > 5 ? s.depth - 5 : 0;
-    return 3.0 * width + costs.stack + 48 * deeper;
+    return 3.0 * width + bytes(costs.stack_bytes, effects) + 48 * deeper;
 }
 
 // The rows that stand for all: every stride-th, from the middle of the first stride on.
@@ -113,9 +119,9 @@ struct Rows {
     uint32_t width, height, stride;
     explicit Rows(const Built& b) : width(b.width), height(b.height), stride(1)
     {
-        const uint32_t rows = std::clamp(wanted_pixels / b.width, wanted_rows, 2 * wanted_rows);
+        const uint32_t rows = std::clamp(wanted_pixels / b.width, wanted_rows, most_rows);
         stride = std::max(b.height / rows, 1u);
-        while (count() > 2 * wanted_rows)
+        while (count() > most_rows)
             stride++;
     }
     uint32_t count() const { return (height - stride / 2 + stride - 1) / stride; }

@@ -105,13 +105,13 @@ def predict(cost, counts):
     return sum(cost.get(k, 0) * counts[k] for k in counts if not k.startswith("effect_"))
 
 
-# What flash holds beside the scene's tables: a constant, and each of these effects.
-def fit_flash(measured, counted):
+def fit_effects(measured, counted, what, other):
+    """Bytes of flash or of stack: a constant, and what each of these effects adds; `other` is what one that no
+    scene here calls for (sampling) is taken to add."""
     effects = [k for k in next(iter(counted.values())) if k.startswith("effect_") and k != "effect_tree"]
     rows = [[1.0] + [counted[s][e] for e in effects] for s in measured]
-    bytes_of = [1000 * v for v in least_squares(rows, [m["flash"] / 1000 for m in measured.values()], 1e-3)]
-    # What no scene here calls for (sampling) has about the size of other effects.
-    return [600 if not any(r[k] for r in rows) else v for k, v in enumerate(bytes_of)], effects
+    bytes_of = [1000 * v for v in least_squares(rows, [m[what] / 1000 for m in measured.values()], 1e-3)]
+    return [other if not any(r[k] for r in rows) else v for k, v in enumerate(bytes_of)], effects
 
 
 def main():
@@ -144,10 +144,10 @@ def main():
             for scene, m in measured.items():
                 off = predict(cost, counted[scene]) / m["instructions"] - 1
                 shares.append((abs(off), board, number, scene))
-            flash, effects = fit_flash(measured, counted)
+            flash, effects = fit_effects(measured, counted, "flash", 600)
+            stack, _ = fit_effects(measured, counted, "stack_bound", 60)
             per = (sum(m["cycles"] for m in measured.values())
                    / sum(m["instructions"] for m in measured.values()))
-            stack = max(m["stack_bound"] for m in measured.values())
             size, ram = memory(board)
             several = []
             for kind, (samples, _) in SAMPLINGS.items():
@@ -157,13 +157,12 @@ def main():
                     if run is not None and "refused" not in run.result:
                         counts = operations(run.scene, run.size, samples)
                         known.append(run.result["instructions"] / predict(cost, counts))
-                        stack = max(stack, run.result["stack_bound"])
                 several.append(sorted(known)[len(known) // 2] if known else 1)
             costs = ", ".join(f"{cost.get(name, 0):.1f}" for name in names())
-            flashes = ", ".join(f"{v:.0f}" for v in flash)
-            lines.append(f'    {{"{board}", "{number}", {size}, {ram}, {per:.3f}, {stack}, '
+            flashes, stacks = (", ".join(f"{v:.0f}" for v in effect) for effect in (flash, stack))
+            lines.append(f'    {{"{board}", "{number}", {size}, {ram}, {per:.3f}, '
                          f'{several[0]:.3f}, {several[1]:.3f},\n     {{{costs}}},\n'
-                         f"     {{{flashes}}}}},\n")
+                         f"     {{{flashes}}},\n     {{{stacks}}}}},\n")
     shares.sort()
     order = ", ".join(f'"{e.removeprefix("effect_")}"' for e in effects)
     text = f"""// Made by `make calibrate`; not to be edited. Costs of each board and number system: of every
@@ -177,10 +176,9 @@ struct Calibration {{
     const char* number;
     unsigned flash, ram;  // bytes that the board has
     double cycles;        // an instruction, modelled
-    unsigned stack;       // bytes, the most of all scenes measured
     double grid, adaptive; // instructions with several samples, by what the operations cost with one
     double cost[{len(names())}];
-    double effects[{len(effects) + 1}]; // bytes of flash: of every program, then of each effect
+    double flash_bytes[{len(effects) + 1}], stack_bytes[{len(effects) + 1}]; // of every program, then of each effect
 }};
 
 inline constexpr const char* effect_order[] = {{{order}}};
