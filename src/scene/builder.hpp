@@ -74,10 +74,12 @@ public:
             return false;
         reset();
         frame = fit();
-        for (uint32_t i = 0; i < d.vertex_count; i++)
-            s.vertices.push() = point(d.vertices[i]);
-        for (uint32_t i = 0; i < d.object_count; i++)
-            add(d.objects[i]);
+        // Patches first: a corner's normal has the number of the corner, and polygons need none.
+        for (const bool patches : {true, false}) {
+            place = 0;
+            for (uint32_t i = 0; i < d.object_count; i++)
+                add(d.objects[i], patches);
+        }
         lights();
         materials();
         camera();
@@ -157,8 +159,12 @@ private:
         return Convert<N>::length(r * frame.scale * (1 + 1e-6) + (IsNarrow<N> ? 2.0 / 1024 : 2e-6));
     }
 
-    void add(const Object& o)
+    void add(const Object& o, bool patches)
     {
+        if ((o.shape == Shape::patch) != patches) {
+            place += o.shape == Shape::patch ? o.count - 2 : 1;
+            return;
+        }
         const Tag tag = make_tag(place, o.fill);
         switch (o.shape) {
         case Shape::sphere: sphere(o, tag); break;
@@ -263,6 +269,15 @@ private:
         return false;
     }
 
+    // The number of the first of some corners, now in the scene's vertices.
+    uint32_t push_corners(const Object& o)
+    {
+        const uint32_t first = s.vertices.count;
+        for (uint32_t i = 0; i < o.count; i++)
+            s.vertices.push() = point(d.vertices[o.vertex + i]);
+        return first;
+    }
+
     Vec3d newell(const Object& o) const
     {
         Vec3d sum;
@@ -278,7 +293,9 @@ private:
         Vec3d g = cross(v[1] - v[0], v[2] - v[1]);
         if (length(g) <= 1e-12 * length(v[1] - v[0]) * length(v[2] - v[1]))
             g = newell(o);
-        if (!(length(g) > 0) || !spans(s.vertices.data + o.vertex, o.count)) {
+        const uint32_t first = push_corners(o);
+        if (!(length(g) > 0) || !spans(s.vertices.data + first, o.count)) {
+            s.vertices.count = first;
             s.vanished++;
             return;
         }
@@ -289,7 +306,7 @@ private:
         double far = 0;
         for (uint32_t i = 0; i < o.count; i++)
             far = fmax(far, length(v[i] - centre));
-        s.polygons.push() = {Convert<N>::direction(unit(g)), point(centre), bound(far), o.vertex, o.count, tag};
+        s.polygons.push() = {Convert<N>::direction(unit(g)), point(centre), bound(far), first, o.count, tag};
     }
 
     void patch(const Object& o)
@@ -298,14 +315,14 @@ private:
         double longest = 0;
         for (uint32_t i = 0; i < o.count; i++)
             longest = fmax(longest, length(d.normals[o.vertex + i]));
-        s.normals.count = o.vertex + o.count;
+        const uint32_t first = push_corners(o);
         for (uint32_t i = 0; i < o.count; i++)
-            s.normals.data[o.vertex + i] = Convert<N>::direction(d.normals[o.vertex + i] * (1 / longest));
+            s.normals.push() = Convert<N>::direction(d.normals[o.vertex + i] * (1 / longest));
         for (uint32_t i = 1; i + 1 < o.count; i++, place++) {
             const Vec3d* corners[3] = {d.vertices + o.vertex, d.vertices + o.vertex + i, d.vertices + o.vertex + i + 1};
             const Vec3d g = cross(*corners[1] - *corners[0], *corners[2] - *corners[1]);
-            const Point<N> rounded[3] = {s.vertices.data[o.vertex], s.vertices.data[o.vertex + i],
-                                         s.vertices.data[o.vertex + i + 1]};
+            const Point<N> rounded[3] = {s.vertices.data[first], s.vertices.data[first + i],
+                                         s.vertices.data[first + i + 1]};
             if (!(length(g) > 0) || !spans(rounded, 3)) {
                 s.vanished++;
                 continue;
@@ -313,7 +330,7 @@ private:
             Point<N> middle{};
             typename N::Length r{};
             ball(corners, 3, middle, r);
-            s.patches.push() = {Convert<N>::direction(unit(g)), middle, r, o.vertex, o.vertex + i, make_tag(place, o.fill)};
+            s.patches.push() = {Convert<N>::direction(unit(g)), middle, r, first, first + i, make_tag(place, o.fill)};
         }
     }
 

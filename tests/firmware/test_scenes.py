@@ -1,6 +1,6 @@
 """The scenes of scenes/ on the boards: the desktop's bytes, sound linked files, and budgets kept. From the
-top of the repository: python3 tests/firmware/test_scenes.py; with --all, every scene on every board in q32
-and float."""
+top of the repository: python3 tests/firmware/test_scenes.py; with --all, every scene on every board in q16,
+q32 and float."""
 
 import concurrent.futures
 import glob
@@ -34,13 +34,13 @@ def budgets():
 
 def images():
     """What is built and run: all that has a budget, and each scene in q32 on one board of each instruction
-    set and in float on one board."""
+    set, and in q16 and float on one board."""
     chosen = set(budgets())
     for k, scene in enumerate(scenes()):
         chosen |= {(board, scene, "q32") for board in ("microbit", "rv32_virt", BOARDS[1 + k % 3])}
-        chosen.add((BOARDS[k % 5], scene, "float"))
+        chosen |= {(BOARDS[k % 5], scene, "float"), (BOARDS[(k + 2) % 5], scene, "q16")}
         if ALL:
-            chosen |= {(board, scene, number) for board in BOARDS for number in ("q32", "float")}
+            chosen |= {(board, scene, number) for board in BOARDS for number in ("q16", "q32", "float")}
     return sorted(chosen)
 
 
