@@ -34,7 +34,7 @@ QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typena
     const Point<N> w{N::saturating_sub(a.x, v.x), N::saturating_sub(a.y, v.y), N::saturating_sub(a.z, v.z)};
     const auto r = s.radius;
     if constexpr (N::is_fixed && !IsNarrow<N>) // outside the cube first: the sum of squares below then fits
-        if (w.x > r || w.y > r || w.z > r || -w.x > r || -w.y > r || -w.z > r)
+        if (w.x > r || w.y > r || w.z > r || w.x < -r || w.y < -r || w.z < -r)
             return false;
     return !beyond<N>(w, r);
 }

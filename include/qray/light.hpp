@@ -28,7 +28,8 @@ QRAY_INLINE constexpr bool towards(const Light<N>& light, const Point<N>& q, Dir
                          typename N::Length{light.at.z.raw - ((q.z.raw + half) >> s)}};
         if (!normalise<N>(v, l))
             return false;
-        const int32_t d = N::length(dot<N>(v, l)).raw;
+        const typename N::Moment reach = dot<N>(v, l), most = N::length_max * N::one;
+        const int32_t d = reach < most ? N::length(reach).raw : N::length_max.raw; // v may be longer than a Length
         distance = d > N::length_max.raw >> s ? N::length_max : typename N::Length{d << s};
         return true;
     } else {

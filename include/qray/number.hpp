@@ -123,7 +123,7 @@ struct FixedSystem {
         if (den.raw == 0)
             return false;
         // Two's complement magnitudes: |den| < 2^63 by the range of its terms.
-        const int64_t n = den.raw < 0 ? -int64_t{num.raw} : int64_t{num.raw};
+        const int64_t n = den.raw < 0 ? static_cast<int64_t>(0 - static_cast<uint64_t>(int64_t{num.raw})) : int64_t{num.raw};
         const uint64_t d = den.raw < 0 ? 0 - static_cast<uint64_t>(int64_t{den.raw}) : static_cast<uint64_t>(den.raw);
         const int lz = count_leading_zeros(d);
         const uint32_t top = static_cast<uint32_t>((d << lz) >> 32);
