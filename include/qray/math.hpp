@@ -175,6 +175,10 @@ namespace detail {
 // x m / 2^(32 + halve) to the nearest, for m >= 2^31 and halve 0 or 1.
 constexpr int32_t scaled_component(int32_t x, uint32_t m, int halve)
 {
+    if constexpr (sizeof(void*) == 8) {
+        const int down = 32 + halve;
+        return static_cast<int32_t>((int64_t{x} * m + (int64_t{1} << (down - 1))) >> down);
+    }
     // As a signed number m is too small by 2^32.
     const uint64_t p = static_cast<uint64_t>(wide_mul(x, static_cast<int32_t>(m)));
     const uint32_t whole = static_cast<uint32_t>(p >> 32) + static_cast<uint32_t>(x);

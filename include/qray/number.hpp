@@ -308,6 +308,8 @@ private:
     // The upper 32 bits of v 2^up, for up in [0, 31]; all below 2^31 of v if that is 31.
     static constexpr int32_t top_word(int64_t v, int up)
     {
+        if constexpr (sizeof(void*) == 8)
+            return static_cast<int32_t>(static_cast<uint64_t>(v) << up >> 32);
         const uint32_t high = static_cast<uint32_t>(static_cast<uint64_t>(v) >> 32), low = static_cast<uint32_t>(v);
         return static_cast<int32_t>((high << up) | (low >> 1 >> (31 - up)));
     }

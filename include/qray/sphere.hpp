@@ -36,7 +36,7 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
     if constexpr (IsNarrow<N>) {
         if (!Near && surely_missed(s, NarrowRay<N>(ray)))
             return false;
-    } else if constexpr (!Near || !NarrowRay<N>::rejects) {
+    } else if constexpr (!Near) {
         const auto reach = N::coarse_above(s.radius, s.fine);
         if (middle < -reach)
             return false;

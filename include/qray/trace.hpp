@@ -16,51 +16,65 @@ struct NoCount {
 
 // A hit on the plane through c: moved onto it where its error, which is that of t, is more than some ulp.
 template <class N>
-QRAY_INLINE constexpr void flat_surface([[maybe_unused]] const Point<N>& c, const Direction<N>& normal, const Ray<N>& ray,
-                                        typename N::Length t, Surface<N>& s)
+QRAY_INLINE constexpr Point<N> on_plane([[maybe_unused]] const Point<N>& c, [[maybe_unused]] const Direction<N>& normal,
+                                        const Ray<N>& ray, typename N::Length t)
 {
-    s.geometric = normal;
-    s.point = ray.origin + along<N>(t, ray.direction);
+    const Point<N> q = ray.origin + along<N>(t, ray.direction);
     if constexpr (!N::is_fixed)
-        s.point = s.point - along<N>(dot<N>(s.point - c, normal), normal);
+        return q - along<N>(dot<N>(q - c, normal), normal);
     else if constexpr (IsNarrow<N>)
-        s.point = s.point - along<N>(N::length(dot<N>(s.point - c, normal)), normal);
+        return q - along<N>(N::length(dot<N>(q - c, normal)), normal);
+    else
+        return q;
+}
+
+// The point, and the outward geometric normal there.
+template <class N, Effects E>
+QRAY_INLINE constexpr void geometry_at(const Scene<N, E>& scene, const Ray<N>& ray, const Hit<N>& hit, Point<N>& q, Direction<N>& g)
+{
+    // What is none of the others is the last, so that there q and g are always set.
+    constexpr Kind last = E.disc ? Kind::disc : E.patch ? Kind::patch : E.polygon ? Kind::polygon : E.cone ? Kind::cone : Kind::sphere;
+    const auto is = [&hit](Kind kind) { return kind == last || hit.kind == kind; };
+    if constexpr (E.sphere)
+        if (is(Kind::sphere))
+            return surface_of(scene.spheres[hit.index], hit.local, ray.direction, q, g);
+    if constexpr (E.cone)
+        if (is(Kind::cone))
+            return surface_of(scene.cones[hit.index], hit.local, ray.direction, q, g);
+    if constexpr (E.polygon)
+        if (is(Kind::polygon)) {
+            const Polygon<N>& polygon = scene.polygons[hit.index];
+            g = polygon.normal;
+            q = on_plane(scene.vertices[polygon.first], g, ray, hit.t);
+            return;
+        }
+    if constexpr (E.patch)
+        if (is(Kind::patch)) {
+            const Patch<N>& patch = scene.patches[hit.index];
+            g = patch.normal;
+            q = on_plane(scene.vertices[patch.first], g, ray, hit.t);
+            return;
+        }
+    if constexpr (E.disc) {
+        const Disc<N>& disc = scene.discs[hit.index];
+        g = disc.normal;
+        q = on_plane(disc.centre, g, ray, hit.t);
+    }
 }
 
 template <class N, Effects E>
 QRAY_INLINE constexpr Surface<N> surface_at(const Scene<N, E>& scene, const Ray<N>& ray, const Hit<N>& hit)
 {
-    Surface<N> s;
-    constexpr bool one_kind = E.shapes() == 1;
-    if constexpr (E.sphere)
-        if (one_kind || hit.kind == Kind::sphere)
-            surface_of(scene.spheres[hit.index], hit.local, ray.direction, s.point, s.geometric);
-    if constexpr (E.cone)
-        if (one_kind || hit.kind == Kind::cone)
-            surface_of(scene.cones[hit.index], hit.local, ray.direction, s.point, s.geometric);
-    if constexpr (E.disc)
-        if (one_kind || hit.kind == Kind::disc)
-            flat_surface(scene.discs[hit.index].centre, scene.discs[hit.index].normal, ray, hit.t, s);
-    if constexpr (E.polygon)
-        if (one_kind || hit.kind == Kind::polygon) {
-            const Polygon<N>& polygon = scene.polygons[hit.index];
-            flat_surface(scene.vertices[polygon.first], polygon.normal, ray, hit.t, s);
-        }
+    Point<N> q;
+    Direction<N> g;
+    geometry_at(scene, ray, hit, q, g);
+    Direction<N> n = g;
     if constexpr (E.patch)
-        if (one_kind || hit.kind == Kind::patch) {
-            const Patch<N>& patch = scene.patches[hit.index];
-            flat_surface(scene.vertices[patch.first], patch.normal, ray, hit.t, s);
-            s.normal = shading_normal(patch, scene.vertices.data, scene.normals.data, ray);
-        }
-    if (!E.patch || (!one_kind && hit.kind != Kind::patch))
-        s.normal = s.geometric;
-    s.n_d = N::unit(dot<N>(s.normal, ray.direction));
-    s.turned = s.n_d > N::zero;
-    if (s.turned) {
-        s.normal = -s.normal;
-        s.n_d = -s.n_d;
-    }
-    return s;
+        if (E.shapes() == 1 || hit.kind == Kind::patch)
+            n = shading_normal(scene.patches[hit.index], scene.vertices.data, scene.normals.data, ray);
+    const auto n_d = N::unit(dot<N>(n, ray.direction));
+    const bool turned = n_d > N::zero;
+    return {q, g, turned ? -n : n, turned ? -n_d : n_d, turned};
 }
 
 // A ray that leaves the surface in direction d; `above` tells whether n.d > 0. Where the shading normal is the geometric one,
@@ -68,11 +82,12 @@ QRAY_INLINE constexpr Surface<N> surface_at(const Scene<N, E>& scene, const Ray<
 template <class N, Effects E>
 QRAY_INLINE constexpr Ray<N> leaving(const Surface<N>& s, [[maybe_unused]] Kind kind, Tag tag, const Direction<N>& d, bool above)
 {
-    bool outward = above != s.turned;
     if constexpr (E.patch)
-        if (E.shapes() == 1 || kind == Kind::patch)
-            outward = dot<N>(s.geometric, d) > typename N::Cosine{};
-    return {step_off<N>(s.point, s.geometric, outward), d, tag, outward};
+        if (E.shapes() == 1 || kind == Kind::patch) {
+            const bool outward = dot<N>(s.geometric, d) > typename N::Cosine{};
+            return {step_off<N>(s.point, s.geometric, outward), d, tag, outward};
+        }
+    return {step_off<N>(s.point, s.normal, above), d, tag, above != s.turned};
 }
 
 template <class N, Effects E>
