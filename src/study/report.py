@@ -92,6 +92,23 @@ def problems(text, reports):
     return out
 
 
+def put(name, made, path):
+    """Writes a report to a file of its own and between its markers in README, if that has them."""
+    with open(path, "w") as file:
+        file.write(made)
+    text = ""
+    if os.path.exists(README):  # as it is now: others may have edited it meanwhile
+        with open(README) as file:
+            text = file.read()
+    new, number = marker(name).subn(lambda m: m[1] + made + m[2], text)
+    if number == 0:
+        print(f"{README} has no '<!-- report:{name} -->'; see {path}", file=sys.stderr)
+    elif new != text:
+        with open(README + ".part", "w") as file:
+            file.write(new)
+        os.replace(README + ".part", README)
+
+
 def main():
     text = ""
     if os.path.exists(README):
@@ -107,19 +124,7 @@ def main():
         if name not in REPORTS:
             runs.fail(f"there is no report '{name}'; reports are {', '.join(REPORTS)}")
         made = REPORTS[name][0]()
-        with open(f"{FOLDER}/{name}.md", "w") as file:
-            file.write(made)
-        if os.path.exists(README):  # as it is now: others may have edited it meanwhile
-            with open(README) as file:
-                text = file.read()
-        new, number = marker(name).subn(lambda m: m[1] + made + m[2], text)
-        if number == 0:
-            print(f"{README} has no '<!-- report:{name} -->'; see {FOLDER}/{name}.md", file=sys.stderr)
-            continue
-        if new != text:
-            with open(README + ".part", "w") as file:
-                file.write(new)
-            os.replace(README + ".part", README)
+        put(name, made, f"{FOLDER}/{name}.md")
     return runs.failures != []
 
 

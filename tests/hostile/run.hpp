@@ -22,6 +22,7 @@ struct Row {
     const char* system;
     int regime;
     Tally tally;
+    Tally beside; // of what was given the same rays
 };
 
 template <class N>
@@ -33,7 +34,7 @@ constexpr const char* system_name()
         return sizeof(typename N::Length) == 4 ? "float" : "double";
 }
 
-template <class N, template <class> class Trial, class F>
+template <class N, template <class> class Trial, template <class, template <class> class> class Beside = Nobody, class F>
 void rows_of(const Selection& selection, uint64_t rays, F f)
 {
     if ((!selection.shape.empty() && selection.shape != Trial<N>::name)
@@ -44,50 +45,53 @@ void rows_of(const Selection& selection, uint64_t rays, F f)
     const uint64_t each = rays / static_cast<uint64_t>(regimes);
     for (int regime = 0; regime < regimes; regime++) {
         const uint64_t pieces = (each + piece - 1) / piece;
-        std::vector<Tally> tallies(pieces);
+        std::vector<Tally> tallies(pieces), others(pieces);
         std::atomic<uint64_t> next{0};
         const auto work = [&] {
-            Examiner<N, Trial> examiner;
+            Examiner<N, Trial, Beside> examiner;
             examiner.verbose = selection.verbose;
             for (uint64_t i = next++; i < pieces; i = next++) {
-                examiner.tally = {};
+                examiner.tally = examiner.beside.tally = {};
                 examiner.run(selection.seed * 0x10001 + static_cast<uint64_t>(regime) * 0x1000003 + i * 0x100000007,
                              static_cast<Regime>(regime), i + 1 < pieces ? piece : each - i * piece);
                 tallies[i] = examiner.tally;
+                others[i] = examiner.beside.tally;
             }
         };
-        std::vector<std::thread> others;
+        std::vector<std::thread> threads;
         for (unsigned k = 1; k < selection.threads && k < pieces; k++)
-            others.emplace_back(work);
+            threads.emplace_back(work);
         work();
-        for (std::thread& t : others)
+        for (std::thread& t : threads)
             t.join();
-        Tally sum;
-        for (const Tally& t : tallies)
-            sum += t;
-        f(Row{Trial<N>::name, system_name<N>(), regime, sum});
+        Row row{Trial<N>::name, system_name<N>(), regime, {}, {}};
+        for (uint64_t i = 0; i < pieces; i++) {
+            row.tally += tallies[i];
+            row.beside += others[i];
+        }
+        f(row);
     }
 }
 
-template <class N, class F>
+template <class N, template <class, template <class> class> class Beside = Nobody, class F>
 void rows_in(const Selection& selection, uint64_t rays, F f)
 {
-    rows_of<N, SphereTrial>(selection, rays, f);
-    rows_of<N, PlaneTrial>(selection, rays, f);
-    rows_of<N, DiscTrial>(selection, rays, f);
-    rows_of<N, CylinderTrial>(selection, rays, f);
-    rows_of<N, ConeTrial>(selection, rays, f);
-    rows_of<N, PolygonTrial>(selection, rays, f);
-    rows_of<N, PatchTrial>(selection, rays, f);
+    rows_of<N, SphereTrial, Beside>(selection, rays, f);
+    rows_of<N, PlaneTrial, Beside>(selection, rays, f);
+    rows_of<N, DiscTrial, Beside>(selection, rays, f);
+    rows_of<N, CylinderTrial, Beside>(selection, rays, f);
+    rows_of<N, ConeTrial, Beside>(selection, rays, f);
+    rows_of<N, PolygonTrial, Beside>(selection, rays, f);
+    rows_of<N, PatchTrial, Beside>(selection, rays, f);
 }
 
-template <class F>
+template <template <class, template <class> class> class Beside = Nobody, class F>
 void each_row(const Selection& selection, uint64_t rays, F f)
 {
-    rows_in<qray::q16>(selection, rays, f);
-    rows_in<qray::q32>(selection, rays, f);
-    rows_in<qray::Float>(selection, rays, f);
-    rows_in<qray::Double>(selection, rays, f);
+    rows_in<qray::q16, Beside>(selection, rays, f);
+    rows_in<qray::q32, Beside>(selection, rays, f);
+    rows_in<qray::Float, Beside>(selection, rays, f);
+    rows_in<qray::Double, Beside>(selection, rays, f);
 }
 
 } // namespace hostile

@@ -1,5 +1,5 @@
 // The shapes: random ones, rays thrown at them, and where those meet them according to an oracle that works on
-// the shape and the ray as they are stored.
+// the shape as it is stored, in a number system N, and a ray as that is, in N or another, M.
 #pragma once
 
 #include <cstdlib>
@@ -127,8 +127,8 @@ struct SphereTrial {
         }
         return ray_at<N>(random, regime, centre + in_ball(random, 1.5 * radius));
     }
-    template <class R>
-    Meetings<R> meet(const qray::Ray<N>& ray) const
+    template <class R, class M>
+    Meetings<R> meet(const qray::Ray<M>& ray) const
     {
         const Vec3<R> d = exact3<R>(ray.direction), v = exact3<R>(shape.centre) - exact3<R>(ray.origin);
         const R r = exact<R>(shape.radius) / R(1 << shape.fine), d2 = dot(d, d), b = dot(v, d) / d2;
@@ -188,8 +188,8 @@ struct DiscTrial {
         const Double3 d = unit(across(random, normal) + normal * random.in(-1e-3, 1e-3));
         return ray_along<N>(random, centre + side * (beyond * radius * std::sqrt(random.unit())), d);
     }
-    template <class R>
-    Meetings<R> meet(const qray::Ray<N>& ray) const
+    template <class R, class M>
+    Meetings<R> meet(const qray::Ray<M>& ray) const
     {
         const Vec3<R> d = exact3<R>(ray.direction), v = exact3<R>(shape.centre) - exact3<R>(ray.origin);
         const Vec3<R> n = exact3<R>(shape.normal);
@@ -295,8 +295,8 @@ struct ConeTrial {
                                              : unit(sideways + generator * random.in(-2, 2));
         return ray_along<N>(random, centre + side * (r * random.in(0.999, 1.001)), random.chance(0.5) ? d : d * -1);
     }
-    template <class R>
-    Meetings<R> meet(const qray::Ray<N>& ray) const
+    template <class R, class M>
+    Meetings<R> meet(const qray::Ray<M>& ray) const
     {
         Vec3<R> a = exact3<R>(shape.axis);
         a = a * (1 / length(a));
@@ -391,9 +391,9 @@ struct Figure {
 };
 
 // The plane of a figure and the crossing parity of its corners around a line, both as stored.
-template <class R, class N>
+template <class R, class N, class M>
 Meetings<R> meet_figure(const qray::Point<N>* corners, uint32_t count, const qray::Direction<N>& normal,
-                        const qray::Ray<N>& ray)
+                        const qray::Ray<M>& ray)
 {
     const Vec3<R> d = exact3<R>(ray.direction), o = exact3<R>(ray.origin), n = exact3<R>(normal);
     Meetings<R> m;
@@ -460,8 +460,8 @@ struct PolygonTrial {
         } while (bench.storage.polygons.count == 0);
     }
     qray::Ray<N> aim(Random& random, Regime regime) const { return figure.aim<N>(random, regime); }
-    template <class R>
-    Meetings<R> meet(const qray::Ray<N>& ray) const
+    template <class R, class M>
+    Meetings<R> meet(const qray::Ray<M>& ray) const
     {
         return meet_figure<R, N>(bench.storage.vertices.data, figure.count, shape.normal, ray);
     }
@@ -499,8 +499,8 @@ struct PatchTrial {
         } while (bench.storage.patches.count == 0);
     }
     qray::Ray<N> aim(Random& random, Regime regime) const { return figure.aim<N>(random, regime); }
-    template <class R>
-    Meetings<R> meet(const qray::Ray<N>& ray) const
+    template <class R, class M>
+    Meetings<R> meet(const qray::Ray<M>& ray) const
     {
         return meet_figure<R, N>(bench.storage.vertices.data, 3, shape.normal, ray);
     }

@@ -38,6 +38,28 @@ struct Tally {
     }
 };
 
+// The nearest meeting in t > 0, or false.
+template <class R>
+bool first(const Meetings<R>& m, R& t)
+{
+    for (int i = 0; i < m.count; i++)
+        if (m.t[i] > 0 && m.within[i] >= 0) {
+            t = m.t[i];
+            return true;
+        }
+    return false;
+}
+
+// A direction that leaves a surface whose unit normal is g: any, or one time in four almost along it.
+inline Double3 spawned_direction(Random& random, const Double3& g)
+{
+    using namespace qray::scene;
+    const Double3 d = direction(random);
+    if (!random.chance(0.25))
+        return d;
+    return unit(across(random, g) + g * (random.logarithmic(1e-9, 1e-2) * (random.chance(0.5) ? 1 : -1)));
+}
+
 enum class Fault { wrong, self_hit, twin_hit, leak, parity };
 inline constexpr const char* fault_names[] = {"wrong", "self-hit", "twin hit", "leak", "parity"};
 
@@ -50,20 +72,30 @@ void print_ray(const qray::Ray<N>& ray)
                 ray.outward ? "outward" : "inward");
 }
 
+// Who is given the same shapes and rays besides, to be compared: nobody.
 template <class N, template <class> class TrialOf>
+struct Nobody {
+    Tally tally;
+    void look_at(const TrialOf<N>&) {}
+    void answer(Random&, const qray::Ray<N>&, Regime, const Meetings<Wide>&) {}
+};
+
+template <class N, template <class> class TrialOf, template <class, template <class> class> class Beside = Nobody>
 class Examiner {
 public:
     using Trial = TrialOf<N>;
     Tally tally;
+    Beside<N, TrialOf> beside;
     int verbose = 0; // how many faults to print
 
     void run(uint64_t seed, Regime regime, uint64_t count)
     {
-        Random random(seed);
+        Random random(seed), others(~seed); // so that who is beside changes no ray
         while (tally.rays < count) {
             trial.make(random, regime);
+            beside.look_at(trial);
             for (int i = 0; i < 16 && tally.rays < count; i++)
-                examine(random, regime);
+                examine(random, others, regime);
         }
     }
 
@@ -111,19 +143,7 @@ private:
         std::printf("\n");
     }
 
-    // The nearest meeting in t > 0, or false.
-    template <class R>
-    static bool first(const Meetings<R>& m, R& t)
-    {
-        for (int i = 0; i < m.count; i++)
-            if (m.t[i] > 0 && m.within[i] >= 0) {
-                t = m.t[i];
-                return true;
-            }
-        return false;
-    }
-
-    void examine(Random& random, Regime regime)
+    void examine(Random& random, Random& others, Regime regime)
     {
         const qray::Ray<N> ray = trial.aim(random, regime);
         tally.rays++;
@@ -131,6 +151,7 @@ private:
         const bool hit = nearest(ray, h);
         const Length t = h.t;
         const Meetings<Wide> m = trial.template meet<Wide>(ray);
+        beside.answer(others, ray, regime, m);
         Wide expected{};
         bool meets = first(m, expected);
         double error = static_cast<double>(size(exact<Wide>(t) - expected));
@@ -173,9 +194,7 @@ private:
         using namespace qray::scene;
         const qray::Surface<N> s = surface(ray, from);
         const Double3 g = unit({exact<double>(s.geometric.x), exact<double>(s.geometric.y), exact<double>(s.geometric.z)});
-        Double3 d = direction(random);
-        if (random.chance(0.25))
-            d = unit(across(random, g) + g * (random.logarithmic(1e-9, 1e-2) * (random.chance(0.5) ? 1 : -1)));
+        const Double3 d = spawned_direction(random, g);
         qray::Ray<N> next = spawn(s, from.kind, random.chance(0.125) ? mirrored<N>(ray.direction, s.normal, s.n_d) : made_direction<N>(random, d));
         tally.rebounds++;
         const double at = static_cast<double>(trial.outside(exact3<Wide>(s.point))) / one_ulp;
@@ -246,7 +265,9 @@ private:
             if (size(trial.outside(o + d) - trial.outside(o)) < a_little)
                 return;
         }
-        const int counted = crossings_in(scene(), trial.shape, first_ray, N::length_max);
+        const int counted = surely_missed(trial.shape, qray::NarrowRay<N>(first_ray))
+            ? 0
+            : crossings_in(scene(), trial.shape, first_ray, N::length_max);
         if (Trial::curved ? (counted ^ expected) & 1 : counted != count)
             fault(Fault::parity, first_ray);
     }

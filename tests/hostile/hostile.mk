@@ -1,0 +1,13 @@
+# Random hostile rays without end; `make test` throws a million at each shape in each number system.
+#   make soak                   10^8 rays a shape and number system (60 CPU-minutes); RAYS=N SEED=N
+build/hostile/hostile: build/obj/tests/hostile/hostile.o $(LIBRARY)
+	@mkdir -p $(@D)
+	@$(CXX) $(OPTIMISE) $^ -pthread -o $@
+build/obj/tests/hostile/%.o: tests/hostile/%.cpp build/obj/flags
+	@echo "  compile $<"
+	@mkdir -p $(@D)
+	@$(CXX) $(FLAGS) -c $< -o $@
+
+soak: build/hostile/hostile
+	@build/hostile/hostile --rays $(or $(RAYS),100000000) --seed $(or $(SEED),2) --threads $(shell nproc)
+.PHONY: soak

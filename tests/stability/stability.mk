@@ -1,0 +1,12 @@
+#   make stability              robust forms beside textbook ones: README's tables (4 minutes); RAYS=N SEED=N
+build/stability/stability: build/obj/tests/stability/stability.o $(LIBRARY)
+	@mkdir -p $(@D)
+	@$(CXX) $(OPTIMISE) $^ -pthread -o $@
+build/obj/tests/stability/%.o: tests/stability/%.cpp build/obj/flags
+	@echo "  compile $<"
+	@mkdir -p $(@D)
+	@$(CXX) $(FLAGS) -c $< -o $@
+
+stability: build/stability/stability
+	@$(PYTHON) tests/stability/stability.py $(if $(RAYS),--rays $(RAYS)) $(if $(SEED),--seed $(SEED))
+.PHONY: stability
