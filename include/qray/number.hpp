@@ -267,10 +267,18 @@ struct FixedSystem {
         return limit > c.raw && -limit < c.raw;
     }
 
-    // How far a new ray starts from the surface it leaves: 4 ulp along the geometric normal.
+    // How far a new ray starts from the surface it leaves: 2 ulp along the geometric normal.
     QRAY_INLINE static constexpr Length leave(Unit g)
     {
         return {(g.raw + (1 << (UnitFrac - 2))) >> (UnitFrac - 1)};
+    }
+
+    // The same for a ray whose cosine with the normal is not small: as far, or farther, along the ray itself, so that it stays
+    // the ray that it is.
+    static constexpr Unit steep{one.raw / 16};
+    QRAY_INLINE static constexpr Length leave_along(Unit d)
+    {
+        return {(d.raw + (1 << (UnitFrac - 6))) >> (UnitFrac - 5)};
     }
 
     // A hit within this of a light is a hit at the light.

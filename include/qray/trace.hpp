@@ -90,6 +90,26 @@ QRAY_INLINE constexpr Ray<N> leaving(const Surface<N>& s, [[maybe_unused]] Kind 
     return {step_off<N>(s.point, s.normal, above), d, tag, above != s.turned};
 }
 
+// The same for a ray that brings back a picture, given |n.d|. A step along the normal moves it to its side, and what it meets
+// in mirrors and lenses by far more; unless the ray is flat, a step along itself leads away from the surface as well.
+template <class N, Effects E>
+QRAY_INLINE constexpr Ray<N> going_on(const Surface<N>& s, [[maybe_unused]] Kind kind, Tag tag, const Direction<N>& d, bool above,
+                                      [[maybe_unused]] typename N::Unit cosine)
+{
+    if constexpr (N::is_fixed) {
+        bool outward = above != s.turned;
+        if constexpr (E.patch)
+            if (E.shapes() == 1 || kind == Kind::patch) {
+                cosine = N::unit(dot<N>(s.geometric, d));
+                outward = cosine > N::zero;
+                cosine = outward ? cosine : -cosine;
+            }
+        if (cosine >= N::steep)
+            return {s.point + Point<N>{N::leave_along(d.x), N::leave_along(d.y), N::leave_along(d.z)}, d, tag, outward};
+    }
+    return leaving<N, E>(s, kind, tag, d, above);
+}
+
 template <class N, Effects E>
 QRAY_INLINE constexpr Vec<typename N::Unit> colour_at(const Scene<N, E>& scene, uint32_t material, const Point<N>& q)
 {
@@ -277,7 +297,8 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count)
                                 const auto w = N::unit(weight * glass.amount);
                                 if (w >= scene.cutoff.value && w > N::zero) {
                                     count(RayKind::refracted);
-                                    stack.value.entries[stack.value.count++] = {leaving<N, E>(s, hit.kind, hit.tag, bent, false),
+                                    const auto cosine = -N::unit(dot<N>(s.normal, bent));
+                                    stack.value.entries[stack.value.count++] = {going_on<N, E>(s, hit.kind, hit.tag, bent, false, cosine),
                                                                                w, static_cast<uint8_t>(depth + 1)};
                                 }
                             } else {
@@ -288,7 +309,7 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count)
                     const auto w = N::unit(weight * reflect);
                     if (w >= scene.cutoff.value && w > N::zero) {
                         count(RayKind::mirrored);
-                        ray = leaving<N, E>(s, hit.kind, hit.tag, mirrored<N>(ray.direction, s.normal, s.n_d), true);
+                        ray = going_on<N, E>(s, hit.kind, hit.tag, mirrored<N>(ray.direction, s.normal, s.n_d), true, -s.n_d);
                         weight = w;
                         depth++;
                         continue;

@@ -165,7 +165,9 @@ public:
             if (qray::dot<N>(s.geometric, d) > typename N::Cosine{})
                 d = -d;
             const bool above = qray::dot<N>(s.normal, d) > typename N::Cosine{};
-            ray = qray::leaving<N, effects(true)>(s, hit.kind, hit.tag, d, above);
+            const auto n_d = N::unit(qray::dot<N>(s.normal, d));
+            ray = tally.bounces % 2 == 0 ? qray::going_on<N, effects(true)>(s, hit.kind, hit.tag, d, above, above ? n_d : -n_d)
+                                         : qray::leaving<N, effects(true)>(s, hit.kind, hit.tag, d, above);
         }
         return tally;
     }

@@ -186,7 +186,9 @@ private:
     qray::Ray<N> spawn(const qray::Surface<N>& s, qray::Kind kind, const qray::Direction<N>& d) const
     {
         const bool above = qray::dot<N>(s.normal, d) > typename N::Cosine{};
-        return qray::leaving<N, Trial::effects>(s, kind, trial.shape.tag, d, above);
+        const auto n_d = N::unit(qray::dot<N>(s.normal, d));
+        return tally.rebounds % 2 == 0 ? qray::going_on<N, Trial::effects>(s, kind, trial.shape.tag, d, above, above ? n_d : -n_d)
+                                       : qray::leaving<N, Trial::effects>(s, kind, trial.shape.tag, d, above);
     }
 
     void rebound(Random& random, const qray::Ray<N>& ray, const qray::Hit<N>& from)
