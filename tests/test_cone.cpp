@@ -186,6 +186,50 @@ TYPED_TEST(ConeTest, LeavingInwardMeetsTheOtherSide)
     EXPECT_NEAR(value(t), std::sqrt(5), tolerance<N>(4));
 }
 
+// Almost along a generator the chord is long and shallow. Where it is 16 ulp deep its end is found, by a ray that names
+// the surface which it left and by one that does not.
+TEST(Cone, EndOfAShallowChordAlongAGeneratorIsFound)
+{
+    using N = q32;
+    using M = make<N>;
+    Random random(43);
+    const double ulp = 0x1p-24;
+    int chords = 0, lost = 0, lost_unnamed = 0;
+    for (int i = 0; i < 400000; i++) {
+        const Vec3 base = random.point(8), axis = random.direction();
+        const double height = random.uniform(2, 12), ra = random.uniform(4, 8), rb = ra * random.uniform(0, 0.9);
+        const ConeOf<N> s(base, ra, base + axis * height, rb, make_tag(3, 0));
+        const Vec3 side = unit(cross(axis, random.direction()));
+        const double share = random.uniform(0, 1), slope = (rb - ra) / height;
+        const Vec3 generator = unit(axis + side * slope) * (i % 2 ? 1 : -1), normal = unit(side - axis * slope);
+        const Vec3 from = base + axis * (height * share) + side * (ra + (rb - ra) * share) - normal * (2 * ulp);
+        const double across = std::exp(random.uniform(-7, -2)), down = std::exp(random.uniform(-15, -10));
+        const auto ray = ray_from<N>(from, generator + cross(generator, normal) * across - normal * down, s.shape.tag,
+                                     false);
+        const Roots exact = roots(s.shape, ray);
+        if (exact.count != 1 || exact.t[0] < 0.1)
+            continue;
+        const auto w = real(ray.origin) + real(ray.direction) * (exact.t[0] / 2) - real(s.shape.middle);
+        const Real z = dot(w, real(s.shape.axis)), x = length(w - real(s.shape.axis) * z);
+        const Real outside = value(s.shape.cosine) * x - std::ldexp(Real(value(s.shape.rho0)), -s.shape.fine)
+            - value(s.shape.sine) * z;
+        // The error of B moves the end along the generator, which may be past a rim.
+        const Real end = z + dot(real(ray.direction), real(s.shape.axis)) * exact.t[0] / 2;
+        const bool at_rim = std::fabs(end) > std::ldexp(Real(value(s.shape.half)), -s.shape.fine) - exact.t[0] / 4;
+        if (outside > -16 * ulp || outside < -32 * ulp || at_rim)
+            continue;
+        chords++;
+        typename N::Length t{};
+        lost += !s.hit(ray, M::length(100), t) || value(t) < exact.t[0] / 2;
+        auto unnamed = ray;
+        unnamed.from = {Tag::none};
+        lost_unnamed += !s.hit(unnamed, M::length(100), t) || value(t) < exact.t[0] / 2;
+    }
+    EXPECT_GT(chords, 3000);
+    EXPECT_EQ(lost, 0);
+    EXPECT_EQ(lost_unnamed, 0);
+}
+
 TYPED_TEST(ConeTest, CrossingsAreCountedBeforeTheLight)
 {
     QRAY_SHAPE_TEST;

@@ -115,6 +115,30 @@ struct FixedSystem {
             return {static_cast<int32_t>(isqrt(static_cast<uint32_t>(a.raw)))};
     }
 
+    // sqrt(b^2 - a c) for |a| < 1/8, |b| < 2^8, |c| < 2^14, or false where that is negative. Block-scaled: b to 30 bits,
+    // a and c to 61 together, the longer of them first.
+    QRAY_SHARED static constexpr bool small_discriminant(Moment b, Cosine a, Area c, Moment& root)
+    {
+        const auto bits = [](int64_t v) { return 64 - count_leading_zeros(static_cast<uint64_t>(v < 0 ? -v : v) | 1); };
+        const int in_a = bits(a.raw), in_c = bits(c.raw);
+        const int of_b = bits(b.raw) - 30, half = (in_a + in_c - 60) >> 1;
+        int drop = of_b > half ? of_b : half;
+        drop = drop > 0 ? drop : 0;
+        int of_a = (in_a - in_c + 2 * drop) / 2;
+        of_a = of_a < 0 ? 0 : of_a > 2 * drop ? 2 * drop : of_a;
+        const int64_t scaled = b.raw >> drop;
+        const int64_t d = scaled * scaled - (a.raw >> of_a) * (c.raw >> (2 * drop - of_a));
+        if (d < 0)
+            return false;
+        root = {static_cast<int64_t>(static_cast<uint64_t>(isqrt(static_cast<uint64_t>(d))) << drop)};
+        return true;
+    }
+    QRAY_INLINE static constexpr bool is_small(Cosine a)
+    {
+        constexpr int64_t eighth = int64_t{1} << (2 * UnitFrac - 3);
+        return -eighth < a.raw && eighth > a.raw;
+    }
+
     // t = 2^k num / den, within 2 ulp. False where den is 0 or t does not fit Length.
     template <int A, int B>
     static constexpr bool quotient(Wide<A, Bits> num, Wide<B, Bits> den, int k, Length& t)
