@@ -319,4 +319,22 @@ TYPED_TEST(ConeTest, PointOfAHitLiesOnTheSurface)
     EXPECT_LE(worst, 3);
 }
 
+// A thin cylinder whose axis lies between two ulp: seen along z, a shift of the axis by a shows in the normal as -a/r.
+TEST(ConeOfQ32, MiddleIsFinerThanAnUlp)
+{
+    using N = q32;
+    using M = make<N>;
+    const double r = 1.0 / 64, ulp = std::ldexp(1, -24), shift = 0.375 * ulp;
+    ConeOf<N> s({0.25, -0.5 - r, 40}, r, {0.25, -0.5 + r, 40}, r);
+    ASSERT_EQ(s.shape.fine, 10);
+    s.shape.rounded = {-384, 384, 0}; // the rounded middle less the exact one, in 2^-34
+    Vec3 q, n;
+    s.surface(M::ray({0.25, -0.5, 0}, {0, 0, 1}), q, n);
+    EXPECT_NEAR(n.x, -shift / r, std::ldexp(2, -34) / r); // two roundings in the block scale
+    EXPECT_EQ(n.y, 0);
+    EXPECT_NEAR(n.z, -1, 2 * M::unit_ulp());
+    EXPECT_EQ(q.x, 0.25);
+    EXPECT_NEAR(q.z, 40 - r, ulp);
+}
+
 } // namespace

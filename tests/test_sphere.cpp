@@ -207,4 +207,28 @@ TYPED_TEST(SphereTest, PointOfAHitLiesOnTheSphere)
     EXPECT_LE(worst_hit, 4);
 }
 
+// A small ball whose centre lies between two ulp: seen along z, a shift of the centre by a shows in the normal as -a/r.
+TEST(SphereOfQ32, CentreIsFinerThanAnUlp)
+{
+    using N = q32;
+    using M = make<N>;
+    const double r = 1.0 / 64, ulp = std::ldexp(1, -24), shift = 0.375 * ulp;
+    SphereOf<N> s({0.25, -0.5, 40}, r, make_tag(0, 0), 10);
+    s.shape.rounded = {-384, 384, 0}; // the rounded centre less the exact one, in 2^-34
+    Vec3 q, n;
+    s.surface(M::ray({0.25, -0.5, 0}, {0, 0, 1}), q, n);
+    EXPECT_NEAR(n.x, -shift / r, 2 * M::unit_ulp());
+    EXPECT_NEAR(n.y, shift / r, 2 * M::unit_ulp());
+    EXPECT_NEAR(n.z, -1, 2 * M::unit_ulp());
+    EXPECT_EQ(q.x, 0.25);
+    EXPECT_EQ(q.y, -0.5);
+    EXPECT_EQ(q.z, 40 - r);
+    // Rays just inside and outside of the exact rim.
+    N::Length t{};
+    EXPECT_TRUE(s.hit(M::ray({0.25 + r, -0.5, 0}, {0, 0, 1}), N::length_max, t));
+    EXPECT_FALSE(s.hit(M::ray({0.25 - r, -0.5, 0}, {0, 0, 1}), N::length_max, t));
+    EXPECT_FALSE(s.hit(M::ray({0.25, -0.5 + r, 0}, {0, 0, 1}), N::length_max, t));
+    EXPECT_TRUE(s.hit(M::ray({0.25, -0.5 - r, 0}, {0, 0, 1}), N::length_max, t));
+}
+
 } // namespace

@@ -28,6 +28,7 @@ struct Cone {
     typename N::Unit sine;      // > 0 where the radius grows along the axis
     int32_t fine;               // >= 0; 0 in floating point: see sphere.hpp
     Tag tag;
+    [[no_unique_address]] Rounded<N> rounded{}; // of the middle
 };
 
 template <class N>
@@ -53,7 +54,7 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
     const Point<N> p = along<N>(b, ray.direction) - v;
     if (beyond<N>(p, reach))
         return 0;
-    const Point<N> o = fine_offset<N>(b, ray.direction, v, s.fine);
+    const Point<N> o = from_exact(fine_offset<N>(b, ray.direction, v, s.fine), s.rounded);
     local.near = o;
 
     const Length ox = N::length(dot<N>(o, s.e1));
@@ -189,7 +190,7 @@ constexpr void surface_of(const Cone<N>& s, const Local<N>& local, const Directi
     n = s.sine > N::zero ? -s.axis : s.axis;
     normalise<N>(outward, n);
     const auto height = N::length(c * N::sqrt(norm2<N>(across))) - rho;
-    point = s.middle + coarse<N>(w - along<N>(height, n), s.fine);
+    point = s.middle + coarse<N>(from_rounded(w - along<N>(height, n), s.rounded), s.fine);
 }
 
 } // namespace qray

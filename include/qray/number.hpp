@@ -91,6 +91,12 @@ struct FixedSystem {
         else
             return {(w + (Rep{1} << (down - 1))) >> down};
     }
+    // What rounding took off: (a - b) 2^fine, rounded down, for b = length(a).
+    QRAY_INLINE static constexpr Length fine_rest(Moment a, Length b, int32_t fine)
+    {
+        const uint32_t w = static_cast<uint32_t>(a.raw) - (static_cast<uint32_t>(b.raw) << UnitFrac);
+        return {static_cast<int32_t>(w) >> (UnitFrac - fine)};
+    }
     QRAY_INLINE static constexpr Length coarse(Length a, int32_t fine)
     {
         return {(a.raw + (1 << fine >> 1)) >> fine};

@@ -59,6 +59,38 @@ QRAY_INLINE constexpr Point<N> fine_offset(typename N::Length middle, const Dire
             N::fine_sub(middle * d.z, v.z, fine)};
 }
 
+// A point's rounded coordinates less the exact ones, times 2^fine.
+template <class N>
+struct Rounded {
+    int16_t x = 0, y = 0, z = 0;
+};
+template <class N>
+    requires(!N::is_fixed || IsNarrow<N>)
+struct Rounded<N> {};
+
+// p as seen from the exact point.
+template <class N>
+QRAY_INLINE constexpr Point<N> from_exact(const Point<N>& p, [[maybe_unused]] const Rounded<N>& rounded)
+{
+    if constexpr (N::is_fixed && !IsNarrow<N>) {
+        using Length = typename N::Length;
+        return p + Point<N>{Length{rounded.x}, Length{rounded.y}, Length{rounded.z}};
+    } else {
+        return p;
+    }
+}
+// And back.
+template <class N>
+QRAY_INLINE constexpr Point<N> from_rounded(const Point<N>& p, [[maybe_unused]] const Rounded<N>& rounded)
+{
+    if constexpr (N::is_fixed && !IsNarrow<N>) {
+        using Length = typename N::Length;
+        return p - Point<N>{Length{rounded.x}, Length{rounded.y}, Length{rounded.z}};
+    } else {
+        return p;
+    }
+}
+
 // Back from the block scale.
 template <class N>
 QRAY_INLINE constexpr Point<N> coarse(const Point<N>& p, int32_t fine)

@@ -17,6 +17,7 @@ struct Sphere {
     typename N::Scale inverse_radius; // of that
     int32_t fine;                     // >= 0; 0 in floating point
     Tag tag;
+    [[no_unique_address]] Rounded<N> rounded{}; // of the centre
 };
 
 template <class N>
@@ -26,13 +27,16 @@ QRAY_INLINE constexpr bool surely_missed(const Sphere<N>& s, const NarrowRay<N>&
 }
 
 // Half the chord that the ray cuts from the sphere, the t of its middle, and that middle, from the centre; false
-// where they do not meet. `from_centre` and `half` are times 2^fine. Near: the ray is known not to be surely_missed().
+// where they do not meet. `from_centre`, `half` and `foot`, which is what rounding took off `middle`, are times 2^fine.
+// Near: the ray is known not to be surely_missed().
 template <bool Near, class N>
 QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves leaving, typename N::Length& middle,
-                                 typename N::Length& half, Point<N>& from_centre)
+                                 typename N::Length& half, Point<N>& from_centre,
+                                 [[maybe_unused]] typename N::Length& foot)
 {
     const Point<N> v = s.centre - ray.origin;
-    middle = N::length(dot<N>(v, ray.direction));
+    const auto moment = dot<N>(v, ray.direction);
+    middle = N::length(moment);
     if constexpr (IsNarrow<N>) {
         if (!Near && surely_missed(s, NarrowRay<N>(ray)))
             return false;
@@ -44,7 +48,7 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
         if (leaving != Leaves::inward && norm2<N>(p) > reach * reach)
             return false;
     }
-    from_centre = fine_offset<N>(middle, ray.direction, v, s.fine);
+    from_centre = from_exact(fine_offset<N>(middle, ray.direction, v, s.fine), s.rounded);
     const auto p2 = norm2<N>(from_centre);
     const auto r2 = s.radius * s.radius;
     if (p2 > r2) {
@@ -52,6 +56,8 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
         return leaving == Leaves::inward; // however short, that chord has another end
     }
     half = N::sqrt(r2 - p2);
+    if constexpr (N::is_fixed && !IsNarrow<N>)
+        foot = N::fine_rest(moment, middle, s.fine);
     return true;
 }
 
@@ -63,8 +69,8 @@ QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Ray<N>& ray, type
     const Leaves leaving = leaves(ray, s.tag);
     if (leaving == Leaves::outward) // convex: never met again
         return false;
-    typename N::Length middle{}, half{};
-    if (!chord<Near>(s, ray, leaving, middle, half, local.near))
+    typename N::Length middle{}, half{}, foot{};
+    if (!chord<Near>(s, ray, leaving, middle, half, local.near, foot))
         return false;
     const auto coarse = N::coarse(half, s.fine);
     t = middle - coarse;
@@ -78,6 +84,8 @@ QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Ray<N>& ray, type
             t = N::ulp;
         }
     }
+    if constexpr (N::is_fixed && !IsNarrow<N>)
+        local.along = foot + local.along;
     return t <= limit;
 }
 
@@ -88,9 +96,9 @@ QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Ray<N>& ray, typen
     const Leaves leaving = leaves(ray, s.tag);
     if (leaving == Leaves::outward)
         return 0;
-    typename N::Length middle{}, half{};
+    typename N::Length middle{}, half{}, foot{};
     Point<N> from_centre{};
-    if (!chord<Near>(s, ray, leaving, middle, half, from_centre))
+    if (!chord<Near>(s, ray, leaving, middle, half, from_centre, foot))
         return 0;
     const auto limit = distance - N::light_clearance;
     const auto coarse = N::coarse(half, s.fine);
@@ -116,7 +124,7 @@ QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Local<N>& local,
     n = {N::ratio(w.x, s.inverse_radius), N::ratio(w.y, s.inverse_radius), N::ratio(w.z, s.inverse_radius)};
     // An error of |d| shows in |w|, and between mirrors would grow from one to the next.
     N::sharpen(n.x, n.y, n.z);
-    point = s.centre + coarse<N>(along<N>(s.radius, n), s.fine);
+    point = s.centre + coarse<N>(from_rounded(along<N>(s.radius, n), s.rounded), s.fine);
 }
 
 } // namespace qray

@@ -148,6 +148,14 @@ private:
         // On a coarse lattice, so that coordinates that are round in the file stay so.
         const double step = f.scale * 64;
         f.origin = {round(f.centre.x * step) / step, round(f.centre.y * step) / step, round(f.centre.z * step) / step};
+        // At most half an ulp from there, so that the eye, where all rays start, is not rounded.
+        if constexpr (N::is_fixed && !IsNarrow<N>) {
+            const auto moved = [&f](double origin, double eye) {
+                const double ulp = ldexp(1 / f.scale, -N::Length::frac), at = (eye - origin) / ulp;
+                return origin + (at - rint(at)) * ulp;
+            };
+            f.origin = {moved(f.origin.x, d.view.from.x), moved(f.origin.y, d.view.from.y), moved(f.origin.z, d.view.from.z)};
+        }
         return f;
     }
 
@@ -196,7 +204,7 @@ private:
         }
         const int fine = fine_for(o.ra, sphere_world);
         const auto r = radius(ldexp(o.ra, fine));
-        s.spheres.push() = {point(o.a), r, Convert<N>::inverse(r), fine, tag};
+        s.spheres.push() = {point(o.a), r, Convert<N>::inverse(r), fine, tag, Convert<N>::rounded(frame.point(o.a), fine)};
     }
 
     void disc(const Point<N>& centre, const Vec3d& n, double r, Tag tag)
@@ -243,7 +251,8 @@ private:
                           Convert<N>::unit(cosine),
                           Convert<N>::unit(sine),
                           fine,
-                          tag};
+                          tag,
+                          Convert<N>::rounded(frame.point((o.a + o.b) * 0.5), fine)};
     }
 
     // The ball around the middle of the box of some corners.

@@ -48,6 +48,19 @@ struct Convert {
     static typename N::Eta eta(double v) { return number<typename N::Eta>(v); }
     static Point<N> point(const Vec3d& p) { return {length(p.x), length(p.y), length(p.z)}; }
     static Direction<N> direction(const Vec3d& d) { return {unit(d.x), unit(d.y), unit(d.z)}; }
+    // p less its rounding, in units of 2^-fine ulp.
+    static Rounded<N> rounded([[maybe_unused]] const Vec3d& p, [[maybe_unused]] int fine)
+    {
+        if constexpr (N::is_fixed && !IsNarrow<N>) {
+            const auto of = [fine](double v) {
+                const double fixed = ldexp(v, N::Length::frac);
+                return static_cast<int16_t>(lrint(ldexp(rint(fixed) - fixed, fine)));
+            };
+            return {of(p.x), of(p.y), of(p.z)};
+        } else {
+            return {};
+        }
+    }
     static Rgb<N> rgb(const Vec3d& c) { return {colour(c.x), colour(c.y), colour(c.z)}; }
 
     // 1/r for r > 0.

@@ -98,11 +98,11 @@ private:
                 f(array, type, name, fields);
         };
         table(e.sphere, s.spheres, "Sphere<Number>", "spheres",
-              "centre; radius * 2^fine and its inverse; fine; tag");
+              "centre; radius * 2^fine and its inverse; fine; tag; centre's rounding * 2^fine");
         table(e.disc, s.discs, "Disc<Number>", "discs", "centre; normal; radius; tag");
         table(e.cone, s.cones, "Cone<Number>", "cones",
               "middle; across, across, axis; cosine * mean radius, half height, bound, all * 2^fine; "
-              "cosine, sine; fine; tag");
+              "cosine, sine; fine; tag; middle's rounding * 2^fine");
         table(e.polygon, s.polygons, "Polygon<Number>", "polygons",
               "normal; middle and radius of a ball around it; first vertex, count; tag");
         table(e.patch, s.patches, "Patch<Number>", "patches",
@@ -188,6 +188,15 @@ private:
     void value(const Fixed<F, B>& v) { list(v.raw); }
     template <class T>
     void value(const Vec<T>& v) { list(v.x, v.y, v.z); }
+    void value(const Rounded<N>& v)
+    {
+        if constexpr (N::is_fixed && !IsNarrow<N>) {
+            const auto& [x, y, z] = v;
+            list(int32_t{x}, int32_t{y}, int32_t{z});
+        } else {
+            out.put("{}");
+        }
+    }
     void value(const FixedScale& v)
     {
         const auto& [mantissa, shift] = v;
@@ -206,8 +215,8 @@ private:
 
     void value(const Sphere<N>& v)
     {
-        const auto& [centre, radius, inverse_radius, fine, tag] = v;
-        list(centre, radius, inverse_radius, fine, tag);
+        const auto& [centre, radius, inverse_radius, fine, tag, rounded] = v;
+        list(centre, radius, inverse_radius, fine, tag, rounded);
     }
     void value(const Disc<N>& v)
     {
@@ -216,8 +225,8 @@ private:
     }
     void value(const Cone<N>& v)
     {
-        const auto& [middle, e1, e2, axis, rho0, half, bound, cosine, sine, fine, tag] = v;
-        list(middle, e1, e2, axis, rho0, half, bound, cosine, sine, fine, tag);
+        const auto& [middle, e1, e2, axis, rho0, half, bound, cosine, sine, fine, tag, rounded] = v;
+        list(middle, e1, e2, axis, rho0, half, bound, cosine, sine, fine, tag, rounded);
     }
     void value(const Polygon<N>& v)
     {

@@ -114,6 +114,18 @@ Vec3<R> exact3(const qray::Vec<T>& v)
     return {exact<R>(v.x), exact<R>(v.y), exact<R>(v.z)};
 }
 
+// The centre of a curved shape, of which `point` is the rounding.
+template <class R, class N, class Shape>
+Vec3<R> exact_centre(const qray::Point<N>& point, [[maybe_unused]] const Shape& shape)
+{
+    Vec3<R> c = exact3<R>(point);
+    if constexpr (requires { shape.rounded.x; }) {
+        const R step = R(1) / (R(int64_t{1} << N::Length::frac) * R(1 << shape.fine));
+        c = c - Vec3<R>{R(shape.rounded.x), R(shape.rounded.y), R(shape.rounded.z)} * step;
+    }
+    return c;
+}
+
 // The spacing of lengths as they occur in a world of +-62: of float and double, of numbers of 32 to 64.
 template <class N>
 constexpr double ulp()

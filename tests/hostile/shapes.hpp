@@ -130,7 +130,7 @@ struct SphereTrial {
     template <class R, class M>
     Meetings<R> meet(const qray::Ray<M>& ray) const
     {
-        const Vec3<R> d = exact3<R>(ray.direction), v = exact3<R>(shape.centre) - exact3<R>(ray.origin);
+        const Vec3<R> d = exact3<R>(ray.direction), v = exact_centre<R, N>(shape.centre, shape) - exact3<R>(ray.origin);
         const R r = exact<R>(shape.radius) / R(1 << shape.fine), d2 = dot(d, d), b = dot(v, d) / d2;
         const Vec3<R> p = v - d * b;
         const R rest = r * r - dot(p, p);
@@ -145,7 +145,7 @@ struct SphereTrial {
     // How far a point lies outside.
     Wide outside(const Vec3<Wide>& p) const
     {
-        return length(p - exact3<Wide>(shape.centre)) - exact<Wide>(shape.radius) / Wide(1 << shape.fine);
+        return length(p - exact_centre<Wide, N>(shape.centre, shape)) - exact<Wide>(shape.radius) / Wide(1 << shape.fine);
     }
 };
 
@@ -301,7 +301,7 @@ struct ConeTrial {
         Vec3<R> a = exact3<R>(shape.axis);
         a = a * (1 / length(a));
         const R c = exact<R>(shape.cosine), s = exact<R>(shape.sine);
-        const Vec3<R> d = exact3<R>(ray.direction), v = exact3<R>(shape.middle) - exact3<R>(ray.origin);
+        const Vec3<R> d = exact3<R>(ray.direction), v = exact_centre<R, N>(shape.middle, shape) - exact3<R>(ray.origin);
         const R b = dot(v, d) / dot(d, d);
         const Vec3<R> o = d * b - v;
         const R oz = dot(o, a), dz = dot(d, a), scale = R(1 << shape.fine);
@@ -330,7 +330,7 @@ struct ConeTrial {
     {
         Vec3<Wide> a = exact3<Wide>(shape.axis);
         a = a * (1 / length(a));
-        const Vec3<Wide> w = p - exact3<Wide>(shape.middle);
+        const Vec3<Wide> w = p - exact_centre<Wide, N>(shape.middle, shape);
         const Wide z = dot(w, a);
         return exact<Wide>(shape.cosine) * length(w - a * z)
             - (exact<Wide>(shape.rho0) / Wide(1 << shape.fine) + exact<Wide>(shape.sine) * z);
