@@ -69,7 +69,7 @@ struct LatticeAxis<N> {
     int32_t row_x, row_y, row_z;
     int32_t frac; // [1, 30]
     int32_t offset;
-    int32_t whole; // where a lattice does not wrap, at most 2^15 either way
+    int32_t whole; // where a lattice does not wrap, at most 2^30 either way
 
     constexpr Cell<N> cell(const Point<N>& q) const
     {

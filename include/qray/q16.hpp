@@ -5,7 +5,7 @@
 //   a coordinate            at most 64000 < 2^16
 //   a difference of points  |v| <= 128000 < 2^17; |v.d| <= |v| |d| < 2^31 - 2^24, partial sums too (Cauchy-Schwarz)
 //   a distance t            at most length_max, so that t d fits for |d| <= 1 + 2^-11
-//   a radius                block-scaled to at most 2^15: (2^15 + 5120)^2 < 2^31 for what passes the coarse test
+//   a radius                block-scaled up to 2^15, 36700 as it is: (2^15 + 5120)^2 < 2^31 for what passes the coarse test
 //   a cone's ball           block-scaled to B <= 18432: |U| <= 2.45 B < sqrt(2^31), half B + root < 2^31 (see cone.hpp)
 //   a sheared corner        not rounded at all: |x dz - z dx| <= |v| |d| < 2^31; the product of two takes 64 bits
 //   a colour                below 8, so that its product with 1 is less than 2^30
@@ -169,7 +169,8 @@ struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
     static constexpr Length sqrt(Area a) { return {static_cast<int32_t>(isqrt(static_cast<uint32_t>(a.raw)))}; }
     static constexpr Unit sqrt_unit(Cosine a) { return {static_cast<int32_t>(isqrt(static_cast<uint32_t>(a.raw)))}; }
 
-    // t = 2^k num / den, relative error at most 2^-14. False where den is 0 or t exceeds length_max.
+    // t = 2^k num / den for k <= most_headroom, relative error at most 2^-14. False where den is 0, t exceeds length_max,
+    // or num is 0 and den next to nothing.
     template <int A, int B>
     static constexpr bool quotient(Wide<A, 16> num, Wide<B, 16> den, int k, Length& t)
     {
@@ -199,7 +200,8 @@ struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
         return normalise(x.raw, y.raw, z.raw, ux, uy, uz);
     }
 
-    // v / r as a Unit, for |v| <= about r, with r 2^shift in [2^14, 2^15) and mantissa = 2^(15 + UnitFrac) / (r 2^shift).
+    // v / r as a Unit, for |v| <= about r, with r 2^shift in [2^14, 2^15), or r < 36700 and shift 0, and
+    // mantissa = 2^(15 + UnitFrac) / (r 2^shift).
     QRAY_INLINE static constexpr Unit ratio(Length v, Scale inverse_r)
     {
         return {((v.raw << inverse_r.shift) * inverse_r.mantissa + (1 << 14)) >> 15};

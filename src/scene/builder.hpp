@@ -196,9 +196,18 @@ private:
         return fine;
     }
 
+    // Smaller than the step by which a ray leaves a surface, a ball cannot hold what starts inside of it.
+    static bool too_small(typename N::Length r)
+    {
+        if constexpr (N::is_fixed)
+            return r < N::leave(N::one);
+        else
+            return r == N::length_zero;
+    }
+
     void sphere(const Object& o, Tag tag)
     {
-        if (radius(o.ra) == N::length_zero) {
+        if (too_small(radius(o.ra))) {
             s.vanished++;
             return;
         }

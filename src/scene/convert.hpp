@@ -67,7 +67,8 @@ struct Convert {
     static typename N::Scale inverse(typename N::Length r)
     {
         if constexpr (IsNarrow<N>) {
-            const int shift = count_leading_zeros(static_cast<uint32_t>(r.raw)) - 17; // r << shift in [2^14, 2^15)
+            // r << shift in [2^14, 2^15), or r itself, up to 36700
+            const int zeros = count_leading_zeros(static_cast<uint32_t>(r.raw)), shift = zeros > 17 ? zeros - 17 : 0;
             return {static_cast<int32_t>(lrint(ldexp(1, 15 + N::Unit::frac - shift) / r.raw)), shift};
         } else if constexpr (N::is_fixed) {
             const int shift = count_leading_zeros(static_cast<uint32_t>(r.raw)) - 1; // r << shift in [2^30, 2^31)
@@ -90,16 +91,21 @@ struct Convert {
     // row is in 1/size. A lattice wraps where cells no longer fit; a distance is clamped.
     static LatticeAxis<N> axis(const Vec3d& row, const Vec3d& origin, double scale, double offset, bool wraps)
     {
-        const double whole = dot(row, origin) + offset;
-        const Vec3d r = row * (1 / scale);
+        double whole = dot(row, origin) + offset;
+        Vec3d r = row * (1 / scale);
         if constexpr (IsNarrow<N>) {
-            // So many bits that p fits for every point of the scene.
+            // So many bits that p fits for every point of the scene, and no cells of less than a 2^-19 of an ulp.
             int exponent = 0;
             frexp((scene::length(r) * 62.5 + 1) * 1.0001, &exponent);
-            const int frac = exponent > 30 ? 1 : 31 - exponent;
+            if (exponent > 30) {
+                r = r * ldexp(1, 30 - exponent);
+                whole = ldexp(whole, 30 - exponent);
+                exponent = 30;
+            }
+            const int frac = 31 - exponent;
             const auto row_of = [frac](double v) { return static_cast<int32_t>(llrint(ldexp(v, frac - N::Length::frac))); };
             const double cell = floor(whole);
-            const double index = wraps ? fmod(cell, 4294967296.0) : fmax(-32768, fmin(32768, cell));
+            const double index = wraps ? fmod(cell, 4294967296.0) : fmax(-0x1p30, fmin(0x1p30, cell));
             return {row_of(r.x), row_of(r.y), row_of(r.z), frac, static_cast<int32_t>(floor(ldexp(whole - cell, frac))),
                     static_cast<int32_t>(static_cast<int64_t>(index))};
         } else if constexpr (N::is_fixed) {
