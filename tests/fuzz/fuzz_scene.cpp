@@ -1,0 +1,86 @@
+// Any bytes: either a scene, which every number system builds and draws at 8 x 8, or one line of error.
+// A libFuzzer target; with FUZZ_REPLAY defined, only the function, for the test that replays the corpus.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include <qray/render.hpp>
+
+#include "scene/builder.hpp"
+
+namespace {
+
+using namespace qray;
+
+// Hundreds of megabytes of address space, of which a scene touches little: not in the program's file.
+template <class T>
+T& kept()
+{
+    static T* const at = static_cast<T*>(std::calloc(1, sizeof(T)));
+    return *at;
+}
+
+void expect(bool right, const char* what)
+{
+    if (!right) {
+        std::fprintf(stderr, "fuzz_scene: %s\n", what);
+        std::abort();
+    }
+}
+
+// One line that begins with its place, as in "fuzz:3:14: ...".
+void expect_line(const char* text, const char* start)
+{
+    expect(std::strncmp(text, start, std::strlen(start)) == 0, "an error without its place");
+    expect(std::strlen(text) > std::strlen(start), "an empty error");
+    for (const char* c = text; *c != 0; c++)
+        expect(static_cast<unsigned char>(*c) >= 0x20 && *c != 0x7f, "an error with control characters");
+}
+
+template <class N>
+void draw(const scene::Description& d, const scene::Settings& settings)
+{
+    scene::Error error;
+    if (!scene::Builder<N>(d, settings, kept<scene::Storage<N>>()).build(error)) {
+        expect_line(error.text, "");
+        return;
+    }
+    const auto s = kept<scene::Storage<N>>().template view<everything(scene::Settings::max_depth)>();
+    uint8_t rows[2 * 8 * 3];
+    uint32_t drawn = 0;
+    render<Rgb888>(s, rows, 2, [&drawn](uint32_t first, uint32_t count, const uint8_t*, uint32_t bytes) {
+        expect(first == drawn && bytes == count * 24, "rows out of order");
+        drawn += count;
+        return true;
+    });
+    expect(drawn == 8, "rows that are missing");
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size)
+{
+    scene::Description& d = kept<scene::Description>();
+    scene::Error error;
+    // A copy of just that size: to read beyond its end is an error that the sanitizers see.
+    char* text = static_cast<char*>(std::malloc(size + (size == 0)));
+    std::memcpy(text, bytes, size);
+    const bool accepted = scene::parse("fuzz", text, size, d, error);
+    std::free(text);
+    if (!accepted) {
+        expect_line(error.text, "fuzz:");
+        return 0;
+    }
+    // How it is drawn depends on the size of the text: depth 1 to 4, plain, on a grid or adaptively.
+    scene::Settings settings;
+    settings.width = settings.height = 8;
+    settings.depth = 1 + static_cast<uint32_t>(size % 4);
+    settings.cutoff = size % 3 == 0 ? 0 : 0.0014;
+    settings.grid = size % 5 == 1 ? 2 : 1;
+    settings.levels = size % 5 == 2 ? 2 : 0;
+    draw<q16>(d, settings);
+    draw<q32>(d, settings);
+    draw<Float>(d, settings);
+    draw<Double>(d, settings);
+    return 0;
+}
