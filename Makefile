@@ -88,14 +88,15 @@ build/sanitized/obj/gtest.hpp.gch: USED = $(SANITIZE) -O0
 	@echo '#include <gtest/gtest.h>' > $(@:.gch=)
 	@$(CXX) $(USED) -x c++-header $(@:.gch=) -o $@
 
-# The same command with its q32 made in other ways, for the test that its bytes are the same.
+# The same command with q16 and q32 made in other ways, for the test that their bytes are the same.
 VARIANTS := g++_-O0 g++_-O3_-march=native clang++_-O0 clang++_-O2 clang++_-O3_-march=native
-build/variants/%/qray: build/variants/%/kernel_q32.o $(filter-out %/kernel_q32.o,$(COMMAND))
+build/variants/%/qray: build/variants/%/kernel_q16.o build/variants/%/kernel_q32.o \
+    $(filter-out %/kernel_q16.o %/kernel_q32.o,$(COMMAND))
 	@$(CXX) $(STATIC) $^ -pthread -o $@
-build/variants/%/kernel_q32.o: src/cli/kernel_q32.cpp build/obj/flags
-	@echo "  compile $< with $(subst _, ,$*)"
+build/variants/%.o: build/obj/flags
+	@echo "  compile src/cli/$(*F).cpp with $(subst _, ,$(*D))"
 	@mkdir -p $(@D)
-	@$(subst _, ,$*) $(COMMON) $(PROGRAM) -c $< -o $@
+	@$(subst _, ,$(*D)) $(COMMON) $(PROGRAM) -c src/cli/$(*F).cpp -o $@
 
 build/oracle: tests/oracle/oracle.cpp
 	@echo "  compile $<"

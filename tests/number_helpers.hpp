@@ -16,7 +16,7 @@
 
 namespace qray::test {
 
-using NumberSystems = ::testing::Types<q32, Float, Double>;
+using NumberSystems = ::testing::Types<q16, q32, Float, Double>;
 
 struct SystemNames {
     template <class N>
@@ -27,7 +27,7 @@ struct SystemNames {
         else if constexpr (std::is_same_v<N, Double>)
             return "double";
         else
-            return N::Unit::frac == 30 ? "q32" : "q16";
+            return IsNarrow<N> ? "q16" : "q32";
     }
 };
 
@@ -123,7 +123,10 @@ struct make {
     }
     static typename N::Scale inverse(typename N::Length r)
     {
-        if constexpr (N::is_fixed) {
+        if constexpr (IsNarrow<N>) { // 16 bits
+            const int zeros = __builtin_clz(static_cast<uint32_t>(r.raw)), shift = zeros > 17 ? zeros - 17 : 0;
+            return {static_cast<int32_t>(std::lrint(std::ldexp(1, 29 - shift) / r.raw)), shift};
+        } else if constexpr (N::is_fixed) {
             const int shift = __builtin_clz(static_cast<uint32_t>(r.raw)) - 1;
             const double mantissa = std::ldexp(1, 61 - shift) / r.raw;
             return {mantissa < 2147483647.0 ? static_cast<int32_t>(std::llrint(mantissa)) : INT32_MAX, shift};

@@ -15,7 +15,8 @@ template <class N>
 Pencil<N> pencil(const Vec3& v)
 {
     if constexpr (N::is_fixed) {
-        const auto scaled = [](double c) { return static_cast<int64_t>(std::llrint(std::ldexp(c, 59))); };
+        using Whole = decltype(Pencil<N>::x);
+        const auto scaled = [](double c) { return static_cast<Whole>(std::llrint(std::ldexp(c, sizeof(Whole) == 4 ? 28 : 59))); };
         return {scaled(v.x), scaled(v.y), scaled(v.z)};
     } else {
         using F = typename N::Length;

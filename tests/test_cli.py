@@ -138,7 +138,7 @@ class Options(Cli):
 
     # White left of x = -0.1, in a picture of one pixel: all samples left of the middle, but for three of 64 columns.
     def test_samples(self):
-        for number in ("q32", "float", "double"):
+        for number in ("q16", "q32", "float", "double"):
             for samples, level in ((1, 0), (4, 128), (16, 128), (9, 85), (4096, 116)):
                 text = view() + WHITE + quad(-9, -0.1)
                 self.assertEqual(self.pixels(text, "-n", number, "-r", samples), bytes([level] * 3), samples)
@@ -409,11 +409,12 @@ class Builds(unittest.TestCase):
     def test_variants(self):
         self.assertEqual(len(VARIANTS), 5)
 
-    # q32 by other compilers, at other levels, and with sanitizers that stop at the first fault.
+    # Fixed point by other compilers, at other levels, and with sanitizers that stop at the first fault.
     def test_same_bytes(self):
         self.assertGreaterEqual(len(SCENES), 10)
         for scene in SCENES:
-            for arguments in (["-s", "80x60"], ["-s", "24x18", "-r", "4", "-d", "9"], ["-s", "24x18", "-a", "2"]):
+            for arguments in (["-s", "80x60"], ["-s", "24x18", "-r", "4", "-d", "9"], ["-s", "24x18", "-a", "2"],
+                              ["-s", "40x30", "-n", "q16"]):
                 expected = self.picture(QRAY, scene, *arguments)
                 for program in [*VARIANTS, SANITIZED]:
                     with self.subTest(scene=scene, program=program, arguments=arguments):

@@ -110,7 +110,8 @@ Roots roots(const Cone<N>& s, const Ray<N>& ray)
     const Real qc = c * c * (ox * ox + oy * oy) - rho * rho;
     Roots r;
     r.discriminant = qb * qb - qa * qc;
-    r.clear = std::fabs(r.discriminant) > 0.1 && std::fabs(qa) > 0.02 && std::fabs(qc) > 0.02;
+    const double near = 0.02 + 64 * make<N>::length_ulp();
+    r.clear = std::fabs(r.discriminant) > 5 * near && std::fabs(qa) > near && std::fabs(qc) > near;
     if (r.discriminant <= 0)
         return r;
     const Real root = std::sqrt(r.discriminant);
@@ -120,7 +121,7 @@ Roots roots(const Cone<N>& s, const Ray<N>& ray)
     for (Real t : both) {
         const Real z = oz + t * dz;
         const bool real_nappe = rho0 + sine * z >= 0;
-        if (std::fabs(std::fabs(z) - half) < 0.01)
+        if (std::fabs(std::fabs(z) - half) < 0.01 + 16 * make<N>::length_ulp())
             r.clear = false;
         if (t > 0 && real_nappe && std::fabs(z) <= half)
             r.t[r.count++] = t;

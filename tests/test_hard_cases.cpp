@@ -36,17 +36,19 @@ bool bend(const Direction<N>& d, const Direction<N>& n, double eta, Direction<N>
     return refracted<N>(d, n, N::unit(qray::dot<N>(d, n)), make<N>::eta(eta), out);
 }
 
-// A millionth of a radian to either side, where the root of k falls like 1.5e-3.
+// A millionth of a radian to either side, where the root of k falls like 1.5e-3; in q16, whose directions have 14 bits, a
+// sixtieth of a radian.
 TYPED_TEST(HardCases, RefractionAMillionthOffTheCriticalAngle)
 {
     using N = TypeParam;
     using M = make<N>;
     Random random(91);
+    const double near = IsNarrow<N> ? 0x1p14 * 1e-6 : 1e-6;
     for (double ior : {1.5, 1.25, 2.4, 1.0625}) {
         const double index = value(M::eta(ior)), critical = std::asin(1 / index);
         for (int i = 0; i < 500; i++) {
             const Vec3 n = random.direction(), side = across(random, n);
-            for (double off : {-1e-6, 1e-6}) {
+            for (double off : {-near, near}) {
                 const double angle = critical + off;
                 const auto d = M::direction(side * std::sin(angle) - n * std::cos(angle));
                 const auto stored_n = M::direction(n);
@@ -63,7 +65,7 @@ TYPED_TEST(HardCases, RefractionAMillionthOffTheCriticalAngle)
         }
     }
     // And the margin is what it takes: k is 2.2e-6 and more there, above the slack of every system.
-    EXPECT_GT(2e-6 * std::tan(std::asin(1 / 2.4)) * 2.4 / 2.4, 16 * 2.4 * M::unit_ulp() * (std::is_same_v<N, Float> ? 0 : 1));
+    EXPECT_GT(2 * near * std::tan(std::asin(1 / 2.4)) * 2.4 / 2.4, 16 * 2.4 * M::unit_ulp() * (std::is_same_v<N, Float> ? 0 : 1));
 }
 
 TYPED_TEST(HardCases, IndexAMillionthOffOneLeavesThePictureAsItIs)
@@ -96,6 +98,8 @@ TYPED_TEST(HardCases, SlabLetsOutWhatCameInParallel)
     Random random(92);
     for (double ior : {1.25, 1.5, 2.4})
         for (double degrees : {0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0, 89.0}) {
+            // eta and 1 / eta are each within half a unit of their own format.
+            const double eta_error = std::fmax(M::template step<typename N::Eta>(ior) / ior, M::template step<typename N::Eta>(1 / ior) * ior);
             double worst = 0;
             for (int i = 0; i < 500; i++) {
                 const Vec3 n = random.direction(), side = across(random, n);
@@ -103,11 +107,12 @@ TYPED_TEST(HardCases, SlabLetsOutWhatCameInParallel)
                 const auto d = M::direction(side * std::sin(angle) - n * std::cos(angle)), stored_n = M::direction(n);
                 Direction<N> inside{}, out{};
                 ASSERT_TRUE(bend<N>(d, stored_n, 1 / ior, inside));
-                ASSERT_TRUE(bend<N>(inside, stored_n, ior, out));
+                if (!bend<N>(inside, stored_n, ior, out)) { // k, here cos^2, may be below its own error
+                    EXPECT_LE(std::cos(angle) * std::cos(angle), 2 * (eta_error + 4 * M::unit_ulp() * ior)) << ior << " " << degrees;
+                    continue;
+                }
                 worst = std::fmax(worst, distance(value(out), value(d)));
             }
-            // eta and 1 / eta are each within half a unit of their own format.
-            const double eta_error = std::fmax(M::template step<typename N::Eta>(ior) / ior, M::template step<typename N::Eta>(1 / ior) * ior);
             const double tangent = std::tan(degrees * M_PI / 180);
             EXPECT_LE(worst, 4 * M::unit_ulp() * std::fmax(1, tangent) * ior + eta_error * std::fmax(1, tangent)) << ior << " " << degrees;
         }
@@ -190,7 +195,8 @@ TYPED_TEST(HardCases, ThousandBouncesKeepTheDirectionUnit)
             d = mirrored<N>(d, n, N::unit(qray::dot<N>(d, n)));
             worst = std::fmax(worst, std::fabs(length(value(d)) - 1));
         }
-        const double most = N::is_fixed ? 1e-8 : 8 * M::unit_ulp();
+        // In q16 what one bounce may leave: half an ulp in each component and in the correction.
+        const double most = IsNarrow<N> ? (std::sqrt(3) + 1) / 2 * M::unit_ulp() : N::is_fixed ? 1e-8 : 8 * M::unit_ulp();
         EXPECT_LE(worst, most);
     }
 }
@@ -265,11 +271,13 @@ TYPED_TEST(HardCases, LightInsideAnOpaqueBallStaysThere)
 TYPED_TEST(HardCases, OccluderBeyondTheLightDoesNotBlockIt)
 {
     using N = TypeParam;
-    // From the floor to the light at height 1 below a lid: one that lies at it, one 1e-4 above it, one below.
-    for (const char* lid : {"1", "1.0001", "0.9999"}) {
+    // From the floor to the light at height 1 below a lid: one that lies at it, one 1e-4 above it, one below; 0.02 in
+    // q16, which holds 4 ulp for nothing between a light and what it touches, here 0.016.
+    const std::string below = IsNarrow<N> ? "0.98" : "0.9999";
+    for (const std::string& lid : {std::string("1"), std::string(IsNarrow<N> ? "1.02" : "1.0001"), below}) {
         ASSERT_TRUE(loaded<N>("v from 0 0.5 2 at 0 0 0 up 0 1 0 angle 30 hither 1 resolution 9 9\n b 0 0 0\n ambientlight 0 0 0\n l 0 1 0 1 1 1\n"
-                              "material\n p 4 -9 0 9 9 0 9 9 0 -9 -9 0 -9\n disc 0 " + std::string(lid) + " 0 0 1 0 5\n"));
-        EXPECT_EQ(light_at<N>(4, 6).x > 0.5, std::string(lid) != "0.9999") << lid;
+                              "material\n p 4 -9 0 9 9 0 9 9 0 -9 -9 0 -9\n disc 0 " + lid + " 0 0 1 0 5\n"));
+        EXPECT_EQ(light_at<N>(4, 6).x > 0.5, lid != below) << lid;
     }
 }
 
@@ -428,8 +436,9 @@ TYPED_TEST(HardCases, RootsOfZeroAndOfTheLargestArea)
 {
     using N = TypeParam;
     EXPECT_EQ(value(N::sqrt(N::length_zero * N::length_zero)), 0);
-    const auto most = make<N>::length(120);
-    EXPECT_EQ(value(N::sqrt(most * most)), 120);
+    const double largest = IsNarrow<N> ? 45 : 120; // q16 squares no more than 46340 ulp
+    const auto most = make<N>::length(largest);
+    EXPECT_EQ(value(N::sqrt(most * most)), largest);
 }
 
 // --- Colour
@@ -438,10 +447,16 @@ TYPED_TEST(HardCases, PowersNearOneAndOfZero)
 {
     using N = TypeParam;
     using M = make<N>;
-    const auto x = M::unit(1 - 0x1p-16);
-    // 24 multiplications, each of which doubles the error before it; fixed point works on 1 - x instead.
-    const double tolerance = N::is_fixed ? 0x1p-28 : 10000 * M::unit_ulp(0.5);
-    EXPECT_NEAR(value(N::power(x, M::shine(10000))), std::pow(1 - 0x1p-16, 10000.0), tolerance);
+    if constexpr (IsNarrow<N>) { // the power of what lies within half an ulp of x
+        const double ulp = M::unit_ulp(), p = value(N::power(M::unit(1 - ulp), M::shine(10000)));
+        EXPECT_GE(p, std::pow(1 - 1.5 * ulp, 10000.0));
+        EXPECT_LE(p, std::pow(1 - 0.5 * ulp, 10000.0));
+    } else {
+        const auto x = M::unit(1 - 0x1p-16);
+        // 24 multiplications, each of which doubles the error before it; fixed point works on 1 - x instead.
+        const double tolerance = N::is_fixed ? 0x1p-28 : 10000 * M::unit_ulp(0.5);
+        EXPECT_NEAR(value(N::power(x, M::shine(10000))), std::pow(1 - 0x1p-16, 10000.0), tolerance);
+    }
     EXPECT_EQ(value(N::power(M::unit(0), M::shine(0))), 1);
     EXPECT_EQ(value(N::power(M::unit(0), M::shine(1))), 0);
     EXPECT_EQ(value(N::power(M::unit(0), M::shine(0.5))), 0);

@@ -28,7 +28,7 @@ TYPED_TEST_SUITE(HostileTest, qray::test::NumberSystems, qray::test::SystemNames
 template <class N, template <class> class Trial>
 void expect_steady(const Allowed& allowed)
 {
-    constexpr bool is_q32 = std::is_same_v<N, qray::q32>;
+    constexpr bool is_q32 = std::is_same_v<N, qray::q32>, is_q16 = qray::IsNarrow<N>;
     rows_of<N, Trial>({}, rays, [&allowed](const Row& row) {
         SCOPED_TRACE(regime_names[row.regime]);
         const Tally& t = row.tally;
@@ -36,12 +36,17 @@ void expect_steady(const Allowed& allowed)
         EXPECT_GT(t.rebounds, t.rays / 4);
         EXPECT_EQ(t.self_hits, 0u);
         EXPECT_EQ(t.leaks, 0u);
-        // Float cannot tell entering from leaving on a chord of 5e-4 in a ball of 1.
-        EXPECT_LE(t.parity, (std::is_same_v<N, qray::Float>) ? t.rays / 100000 : 0u);
-        // A twin may be met within 2e-7 of a tangent.
-        EXPECT_LE(t.twin_hits, t.rebounds / 1000);
+        // Float cannot tell entering from leaving on a chord of 5e-4 in a ball of 1; nor q16, whose directions are known to
+        // 6e-5, at a few times that to the wall of a cone: 12 of 1000 grazing rays.
+        const uint64_t least = is_q16 ? (row.regime == static_cast<int>(Regime::grazing) ? 60 : 50000) : 100000;
+        const uint64_t parity = is_q16 || std::is_same_v<N, qray::Float> ? t.rays / least : 0;
+        EXPECT_LE(t.parity, parity);
+        // A twin may be met within 2e-7 of a tangent, within 1e-3 in q16.
+        EXPECT_LE(t.twin_hits, t.rebounds / (is_q16 ? 250 : 1000));
         if (is_q32) {
-            EXPECT_LE(static_cast<double>(t.wrong) * 1e6, allowed.wrong[row.regime] * static_cast<double>(t.rays));
+            if (rays >= 1000000 || allowed.wrong[row.regime] == 0) { // fewer tell nothing of a rate
+                EXPECT_LE(static_cast<double>(t.wrong) * 1e6, allowed.wrong[row.regime] * static_cast<double>(t.rays));
+            }
             if (row.regime < 2) {
                 EXPECT_LE(t.sum, 1e-7 * static_cast<double>(t.measured)) << "mean error of t";
             }
@@ -57,6 +62,7 @@ TYPED_TEST(HostileTest, Cone) { expect_steady<TypeParam, ConeTrial>(cone); }
 TYPED_TEST(HostileTest, Polygon) { expect_steady<TypeParam, PolygonTrial>(figure); }
 TYPED_TEST(HostileTest, Patch) { expect_steady<TypeParam, PatchTrial>(figure); }
 
+#if !defined(__SANITIZE_ADDRESS__) // too few rays to compare rates
 TEST(Hostile, FixedPointIsWrongLessOftenThanFloatInEveryRow)
 {
     std::vector<double> fixed, single;
@@ -70,5 +76,6 @@ TEST(Hostile, FixedPointIsWrongLessOftenThanFloatInEveryRow)
     for (size_t i = 0; i < fixed.size(); i++)
         EXPECT_LE(fixed[i], single[i]) << "row " << i;
 }
+#endif
 
 } // namespace

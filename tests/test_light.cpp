@@ -84,25 +84,26 @@ TYPED_TEST(LightTest, MayStandFarOutside)
         // In fixed point q is rounded to 2^shift steps, of which the distance has 2^24 * 68.
         expect_near(value(l), unit(v), 3 * M::unit_ulp());
         if constexpr (N::is_fixed)
-            EXPECT_EQ(distance.raw, INT32_MAX); // beyond everything
+            EXPECT_EQ(distance, N::length_max); // beyond everything
         else
             EXPECT_NEAR(value(distance), length(v), 3 * M::length_ulp(length(v)));
     }
 }
 
-// From one corner of the world to the other: 180 lengths, where the largest is 128.
+// From one corner of the world to the other: 180 lengths, where the largest is 128. q16's world is the ball of 62.5,
+// across which a distance still fits.
 TYPED_TEST(LightTest, DistanceIsClampedNotWrapped)
 {
     using N = TypeParam;
     using M = make<N>;
-    const double reach = N::is_fixed ? value(N::length_max) / 128 * 60 : 60;
+    const double reach = IsNarrow<N> ? 62 / std::sqrt(3) : 60;
     for (double side : {-1.0, 1.0}) {
         const auto light = make_light<N>({reach, side * reach, reach}, 0);
         for (double k : {0.25, 0.5, 0.75}) { // 130, 156 and 182 away
             Direction<N> l{};
             typename N::Length distance{};
             ASSERT_TRUE(towards(light, M::point(-k * reach, -k * side * reach, -k * reach), l, distance));
-            const double exact = std::sqrt(3) * reach * (1 + k), most = value(N::length_max);
+            const double exact = std::sqrt(3) * reach * (1 + k), most = value(N::length_max); // 77 to 109 in q16
             EXPECT_NEAR(value(distance), std::fmin(exact, most), 4 * M::length_ulp(exact));
             expect_near(value(l), unit({1, side, 1}), 3 * M::unit_ulp());
         }

@@ -69,14 +69,16 @@ TYPED_TEST(MeshTest, FarFromTheOrigin)
     expect_watertight<TypeParam>(m, 2000);
 }
 
-// Faces of 4e-4 to 1e-3: in float 100 to 250 units in the last place of their coordinates.
+// Faces of 4e-4 to 1e-3: in float 100 to 250 units in the last place of their coordinates; 20 to 50 in q16, where they
+// are 50 times as large.
 TYPED_TEST(MeshTest, SmallAndFarFromTheOrigin)
 {
     Random random(4);
     Mesh m = turned_body();
     const Turn turn(random);
-    m.move([&](const Double3& c) { return turn(c) * 0.01 + Double3{31, -32, 30}; });
-    m.room = 0.001;
+    const double size = qray::IsNarrow<TypeParam> ? 0.5 : 0.01;
+    m.move([&](const Double3& c) { return turn(c) * size + Double3{31, -32, 30}; });
+    m.room = size / 10;
     expect_watertight<TypeParam>(m, 2000);
 }
 
@@ -90,14 +92,16 @@ TYPED_TEST(MeshTest, DisplacedSphere)
     expect_watertight<TypeParam>(m, 3000);
 }
 
-// Around its poles a flat body of 200 slices has triangles 0.02 wide and 6 long, along its rim others of 0.6 by 6e-3.
+// Around its poles a flat body of 200 slices has triangles 0.02 wide and 6 long, along its rim others of 0.6 by 6e-3. In
+// q16 it is ten times as thick: mirrors turn the aim of some rays by more than half of 0.02 at its distance.
 TYPED_TEST(MeshTest, Needles)
 {
     Random random(6);
     Mesh m = displaced_sphere(random, 200, 10, 1);
     const Turn turn(random);
-    m.move([&](const Double3& c) { return turn({c.x * 20, c.y * 0.02, c.z * 20}); });
-    m.room = 0.002;
+    const double thick = qray::IsNarrow<TypeParam> ? 0.2 : 0.02;
+    m.move([&](const Double3& c) { return turn({c.x * 20, c.y * thick, c.z * 20}); });
+    m.room = thick / 10;
     expect_watertight<TypeParam>(m, 3000);
 }
 
@@ -121,7 +125,7 @@ TYPED_TEST(MeshTest, ConcaveFacesAlongTheAxes)
 }
 
 // Light that bounces about inside, 4 or 8 ulp off each face that it leaves, never gets out: no dihedral angle of these
-// bodies is acute.
+// bodies is acute. In q16, which steps off by 2 ulp, a hit 40 lengths away is known to 3: some 20 in a million get out.
 TYPED_TEST(MeshTest, NothingGetsOut)
 {
     Random random(8);
@@ -129,13 +133,13 @@ TYPED_TEST(MeshTest, NothingGetsOut)
     Mesh body = turned_body();
     body.move([&](const Double3& c) { return turn(c) * 10; });
     body.room = 1;
-    Mesh star = star_prism(72, 0.3);
+    Mesh star = star_prism(4, 0.3, 0.75); // tips of 97 degrees
     star.move([&](const Double3& c) { return turn(c) * 20; });
     star.room = 0.2;
     for (const Mesh* m : {&body, &star}) {
         const MeshTally t = MeshBench<TypeParam>(*m).bounce(19, bounces);
         EXPECT_EQ(t.bounces, bounces);
-        EXPECT_EQ(t.escapes, 0u);
+        EXPECT_LE(t.escapes, qray::IsNarrow<TypeParam> ? 1 + bounces / 20000 : 0);
     }
 }
 

@@ -91,12 +91,13 @@ TYPED_TEST(TreeTest, HitsAreTheSameAmongTinyObjects)
 {
     expect_same_hits<TypeParam>(1004, 300, 1, 500);
     using N = TypeParam;
-    // Balls of a thousandth, each aimed at: none may be lost to the rounding of binary32.
+    // Balls of a thousandth (in q16, whose directions are no finer, of a twentieth), each aimed at: none may be lost to
+    // the rounding of binary32.
     Random random(1005);
     std::string text = "v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3\n";
     for (int i = 0; i < 400; i++) {
         const Vec3 p = random.point(8);
-        text += "s" + numbers({p.x, p.y, p.z, 0.001}) + "\n";
+        text += "s" + numbers({p.x, p.y, p.z, IsNarrow<N> ? 0.05 : 0.001}) + "\n";
     }
     ASSERT_TRUE(loaded<N>(text));
     const auto with = storage<N>().template view<shapes(true)>();
@@ -105,7 +106,7 @@ TYPED_TEST(TreeTest, HitsAreTheSameAmongTinyObjects)
         const Vec3 from = random.point(30);
         Hit<N> hit{};
         ASSERT_TRUE(nearest(with, make<N>::ray(from, centre - from), hit)) << i;
-        EXPECT_LE(value(hit.t), length(centre - from) + 1e-3);
+        EXPECT_LE(value(hit.t), length(centre - from) + (IsNarrow<N> ? 0.05 : 1e-3));
     }
 }
 

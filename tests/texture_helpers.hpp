@@ -33,6 +33,16 @@ Vec<Real> texture_point(const Placing& at, const Point<N>& q)
     return (real(q) * (1 / Real(at.scale)) + real(at.origin)) * (1 / Real(at.size));
 }
 
+// How far p may be off where q reaches so far: the row's 30 bits; in q16 a row that is exact to 2^-14 of what p can be in
+// the whole world; or a float sum of three products and an offset.
+template <class N>
+double place_tolerance(const Placing& at, double q_reach)
+{
+    const double reach = (IsNarrow<N> ? 62.5 : q_reach) / at.scale / at.size + 1;
+    const double with_origin = reach + length(at.origin) / at.size;
+    return IsNarrow<N> ? reach * 0x1p-14 : N::is_fixed ? with_origin * 0x1p-29 : with_origin * 6 * value(N::ulp) / 64;
+}
+
 // Distance to the nearest integer.
 inline double from_integer(Real p)
 {

@@ -71,14 +71,14 @@ inline Mesh displaced_sphere(Random& random, uint32_t slices, uint32_t stacks, d
     return m;
 }
 
-// A prism over a star of n points: two concave faces of 2 n corners.
-inline Mesh star_prism(uint32_t points, double depth)
+// A prism over a star of n points: two concave faces of 2 n corners, at radius 1 and `inner` in turn.
+inline Mesh star_prism(uint32_t points, double depth, double inner = 0.7)
 {
     Mesh m;
     const uint32_t n = 2 * points;
     for (int side = 0; side < 2; side++)
         for (uint32_t i = 0; i < n; i++) {
-            const double a = 2 * M_PI * i / n, r = i % 2 != 0 ? 1 : 0.7;
+            const double a = 2 * M_PI * i / n, r = i % 2 != 0 ? 1 : inner;
             m.corners.push_back({r * std::cos(a), r * std::sin(a), side == 0 ? depth : -depth});
         }
     std::vector<uint32_t> front, back;
