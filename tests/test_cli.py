@@ -328,6 +328,23 @@ class Scenes(Cli):
         self.write("bad.nff", v.encode() + b"s 0 0 0 \xff")
         self.fails(1, "bad.nff:2:9: found the byte 0xff", "bad.nff")
 
+    # The radius of the first scenes is 1/2: planes as far as 64 leave steps of 1/512, as far as 128 of 1/256. That of the others
+    # is 1.03: steps are 2^-15, and the limit for a texture is 2^-27.
+    def test_refused_by_q16(self):
+        plane = view() + "plane 0 0 0 0 1 0 far "
+        fine = view() + "texture checker 0 0 0 {} s 0 0 0 0.5"
+        for text, refusal in ((plane + "64", None),
+                              (plane + "128", r"steps of 0\.00391 .* radius of 0\.5 is less than 256 of them"),
+                              (fine.format(2.0 ** -27), None),
+                              (fine.format(2.0 ** -28), r"steps of 3\.05e-05 .* size of 3\.73e-09 is less than 1/4096 of one")):
+            with self.subTest(text=text[-40:]):
+                self.write("bad.nff", text)
+                if refusal:
+                    self.fails(1, "bad.nff: q16 has lengths in " + refusal, "-n", "q16", "bad.nff")
+                else:
+                    self.assertEqual(self.run_qray("-q", "-n", "q16", "bad.nff")[0], 0)
+                self.assertEqual(self.run_qray("-q", "bad.nff")[0], 0)
+
     def test_text_limit(self):
         for size, message in ((64 << 20, "bad.nff:1:1: found the byte 0x00"),
                               ((64 << 20) + 1, r"bad.nff:1:1: a text of more than 67108864 bytes \(limit 'text'\)")):

@@ -9,7 +9,7 @@
 //   a cone's ball           block-scaled to B <= 18432: |U| <= 2.45 B < sqrt(2^31), half B + root < 2^31 (see cone.hpp)
 //   a sheared corner        not rounded at all: |x dz - z dx| <= |v| |d| < 2^31; the product of two takes 64 bits
 //   a colour                below 8, so that its product with 1 is less than 2^30
-// The builder keeps these bounds, and refuses scenes of which too little would be left.
+// The builder keeps these bounds, and refuses scenes of which too little would be left: see Limits::narrow_radius.
 #pragma once
 
 #include "number.hpp"

@@ -74,6 +74,8 @@ public:
             return false;
         reset();
         frame = fit();
+        if (!fine_enough(error))
+            return false;
         // Patches first: a corner's normal has the number of the corner, and polygons need none.
         for (const bool patches : {true, false}) {
             place = 0;
@@ -110,6 +112,30 @@ private:
                  "the scene has %llu surfaces (a patch of n corners counts as n - 2), more than the limit of %u surfaces",
                  static_cast<unsigned long long>(surfaces), Limits::surfaces);
         return false;
+    }
+
+    // Has a narrow number system enough steps left where a plane takes most of them, and for the cells of textures?
+    bool fine_enough([[maybe_unused]] Error& error) const
+    {
+        if constexpr (IsNarrow<N>) {
+            const double step = ldexp(1 / frame.scale, -N::Length::frac);
+            if (frame.radius < Limits::narrow_radius * step) {
+                snprintf(error.text, sizeof error.text,
+                         "q16 has lengths in steps of %.3g where planes reach as far as %.6g, and the scene's radius of %.3g is less "
+                         "than %.0f of them; expected a nearer 'far', or another number system",
+                         step, frame.far, frame.radius, Limits::narrow_radius);
+                return false;
+            }
+            for (uint32_t i = 0; i < d.fill_count; i++)
+                if (const Texture& t = d.fills[i].texture; t.kind != TextureKind::none && t.size < Limits::narrow_cell * step) {
+                    snprintf(error.text, sizeof error.text,
+                             "q16 has lengths in steps of %.3g here, and a texture's size of %.3g is less than 1/%.0f of one; expected "
+                             "a larger one, or another number system",
+                             step, t.size, 1 / Limits::narrow_cell);
+                    return false;
+                }
+        }
+        return true;
     }
 
     void reset()

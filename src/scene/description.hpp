@@ -21,6 +21,8 @@ struct Limits {
     static constexpr uint32_t lights = 64;
     static constexpr uint32_t resolution = 32'768;  // pixels along either edge
     static constexpr uint32_t text = 64u << 20;     // bytes of scene text
+    static constexpr double narrow_radius = 256;      // of a scene, least, in steps of q16
+    static constexpr double narrow_cell = 1.0 / 4096; // of a texture, likewise
 };
 
 struct Vec3d {
