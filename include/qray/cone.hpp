@@ -120,6 +120,15 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
             t[0] = N::coarse(chord, s.fine);
             tau[0] = chord - N::fine(b, s.fine);
         }
+        // As C is 0 at the origin, the end is at -2 B / A of there, too: where the two differ, D was too small to be known.
+        Length far{};
+        const Length begin = N::fine(b, s.fine), near = begin + tau[0];
+        const auto slope = half_b - begin * N::unit(a);
+        if (k == 0 && N::quotient(-(slope + slope), a, 0, far) && far > N::length_zero && far <= s.bound + s.bound
+            && (!(near > N::length_zero) || far - near > near || near - far > far)) {
+            t[0] = N::coarse(far, s.fine);
+            tau[0] = far - begin;
+        }
         if (!(t[0] > N::length_zero)) {
             t[0] = N::ulp;
             tau[0] = -N::fine(b, s.fine);
