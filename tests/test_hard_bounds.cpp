@@ -1,6 +1,6 @@
 // Energy and bounds: random scenes of hostile numbers, as the parser takes them, never draw light below 0 or, where
 // surfaces conserve energy, above 1; never trace more rays than a tree of their depth has; and break no rule of the
-// language, as the sanitized build of this test sees. `make soak` draws a million of each.
+// language, as the sanitized build of this test sees. `make soak-scenes` draws a million.
 #include "hostile/draw_random.hpp"
 #include "number_helpers.hpp"
 
