@@ -49,10 +49,12 @@ render: build/qray
 	@echo "$(PICTURE) is drawn. Look at it with any viewer of pictures (xdg-open, feh, gimp, ...), or make a PNG:"
 	@echo "    pnmtopng $(PICTURE) > $(PICTURE:.ppm=.png)"
 
-# Tests: each tests/test_*.cpp is a program of its own, built twice: as users would, and with sanitizers.
+# Tests: each tests/test_*.cpp is a program of its own, built with sanitizers; and those that ask more of a fast program
+# (a million rays instead of 20,000, larger pictures) once more as users would build it.
 UNIT    := $(patsubst tests/%.cpp,%,$(wildcard tests/test_*.cpp))
+FAST    := test_hostile test_math test_meshes test_metamorphic
 SCRIPTS := $(wildcard tests/test_*.py tests/test_*.sh tests/*/test_*.py tests/*/test_*.sh)
-TESTS      = $(SCRIPTS) $(addprefix build/sanitized/tests/,$(UNIT)) $(addprefix build/tests/,$(UNIT))
+TESTS      = $(SCRIPTS) $(addprefix build/sanitized/tests/,$(UNIT)) $(addprefix build/tests/,$(FAST))
 TEST_NEEDS = build/qray build/sanitized/qray build/oracle $(VARIANTS:%=build/variants/%/qray)
 TEST_LIBS := -lgtest -lgtest_main -lquadmath -pthread
 
@@ -75,7 +77,7 @@ build/sanitized/obj/src/%.o: src/%.cpp build/obj/flags
 	@mkdir -p $(@D)
 	@$(CXX) $(SANITIZE) -O1 -c $< -o $@
 # To compile is what takes time; but for these, which compute much.
-LONG := test_math test_parser
+LONG := test_math test_parser test_hard_bounds
 build/sanitized/obj/tests/%.o: tests/%.cpp build/sanitized/obj/gtest.hpp.gch
 	@echo "  compile $< with sanitizers"
 	@mkdir -p $(@D)
