@@ -305,8 +305,7 @@ struct FixedSystem {
         return {(g.raw + (1 << (UnitFrac - 2))) >> (UnitFrac - 1)};
     }
 
-    // The same for a ray whose cosine with the normal is not small: as far, or farther, along the ray itself, so that it stays
-    // the ray that it is.
+    // The same for a ray whose cosine with the normal is at least this, along the ray itself: as high, or higher.
     static constexpr Unit steep{one.raw / 16};
     QRAY_INLINE static constexpr Length leave_along(Unit d)
     {

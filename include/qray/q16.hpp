@@ -281,14 +281,6 @@ struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
         return {(g.raw + (1 << (UnitFrac - 2))) >> (UnitFrac - 1)};
     }
 
-    // The same for a ray whose cosine with the normal is not small: as far, or farther, along the ray itself, so that it stays
-    // the ray that it is.
-    static constexpr Unit steep{one.raw / 4};
-    QRAY_INLINE static constexpr Length leave_along(Unit d)
-    {
-        return {(d.raw + (1 << (UnitFrac - 4))) >> (UnitFrac - 3)};
-    }
-
     // A hit within this of a light is a hit at the light.
     static constexpr Length light_clearance{4};
 

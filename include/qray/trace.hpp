@@ -96,7 +96,7 @@ template <class N, Effects E>
 QRAY_INLINE constexpr Ray<N> going_on(const Surface<N>& s, [[maybe_unused]] Kind kind, Tag tag, const Direction<N>& d, bool above,
                                       [[maybe_unused]] typename N::Unit cosine)
 {
-    if constexpr (N::is_fixed) {
+    if constexpr (N::is_fixed && !IsNarrow<N>) {
         bool outward = above != s.turned;
         if constexpr (E.patch)
             if (E.shapes() == 1 || kind == Kind::patch) {
