@@ -368,23 +368,6 @@ TEST(Parser, DropsAndCountsWhatHasNoExtent) {
     EXPECT_EQ(scene.object_count, 1u);
 }
 
-TEST(Parser, PutsCornersFarOffAPolygonsPlaneOntoIt) {
-    ASSERT_PARSES(view + "p 5 0 0 1 8 0 1 8 8 1 4 6 3 0 8 1.001");
-    const Vec3d* v = scene.vertices;
-    expect_vector(v[0], 0, 0, 1);
-    expect_vector(v[2], 8, 8, 1);
-    expect_vector(v[3], 4, 6, 1);
-    expect_vector(v[4], 0, 8, 1.001); // that near it, a corner may belong to another polygon's edge too
-    // The first three corners in a line: Newell's normal, here (0, 0, 1).
-    ASSERT_PARSES(view + "p 6 0 0 1 4 0 1 8 0 1 8 8 1 4 4 1 0 8 1");
-    for (int i = 0; i < 6; i++) EXPECT_EQ(v[i].z, 1);
-    // What leaves it is moved straight: along (0, 3, 4) / 5.
-    ASSERT_PARSES(view + "p 4 0 0 0 5 0 0 5 8 -6 0 11 -2");
-    EXPECT_NEAR(v[3].x, 0, 1e-12);
-    EXPECT_NEAR(v[3].y, 8, 1e-12);
-    EXPECT_NEAR(v[3].z, -6, 1e-12);
-}
-
 TEST(Parser, ResetsWhatAnotherSceneLeft) {
     ASSERT_PARSES("# first\n" + view +
                   "b 1 1 1 ambientlight 1 1 1 shadows off far 3 l 0 0 0 0 0 0 f 0 0 0 0 0 0 0 0 " +

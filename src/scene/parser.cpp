@@ -2,7 +2,6 @@
 #include "reader.hpp"
 
 #include <bit>
-#include <cmath>
 #include <cstdio>
 #include <string_view>
 
@@ -59,31 +58,6 @@ bool has_area(const Vec3d* corners, uint32_t n, bool fan) {
         sum = sum + area;
     }
     return !fan && largest_component(sum) > noise;
-}
-
-double length(const Vec3d& p) { return std::sqrt(dot(p, p)); }
-
-// A polygon lies in the plane through its first corner, with the normal that the builder gives it. Corners that are off
-// that plane by more than 2^-11 of the extent are moved onto it, or the plane would be met far away from them.
-void flatten(Vec3d* corners, uint32_t n) {
-    const Vec3d first = corners[1] - corners[0], second = corners[2] - corners[1];
-    Vec3d normal = cross(first, second);
-    if (length(normal) <= 1e-12 * length(first) * length(second)) {
-        normal = {};
-        for (uint32_t i = 1; i + 1 < n; ++i) {
-            normal = normal + cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
-        }
-    }
-    const double size = length(normal);
-    if (!(size > 0)) return;
-    double extent = 0;
-    for (uint32_t i = 1; i < n; ++i) extent = std::max(extent, largest_component(corners[i] - corners[0]));
-    for (uint32_t i = 1; i < n; ++i) {
-        const double height = dot(corners[i] - corners[0], normal) / size;
-        if (std::fabs(height) <= 0x1p-11 * extent) continue;
-        const double k = height / size;
-        corners[i] = corners[i] - Vec3d{normal.x * k, normal.y * k, normal.z * k};
-    }
 }
 
 uint64_t hash_of(const Fill& fill) {
@@ -354,7 +328,6 @@ bool Parser::corners(Shape shape) {
         if (patch && !direction("a normal of a patch", out_.normals[i])) return false;
     }
     if (!has_area(out_.vertices + object.vertex, object.count, patch)) return drop();
-    if (!patch) flatten(out_.vertices + object.vertex, object.count);
     if (!add(object)) return false;
     out_.vertex_count += object.count;
     return true;
