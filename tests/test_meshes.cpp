@@ -125,8 +125,7 @@ TYPED_TEST(MeshTest, ConcaveFacesAlongTheAxes)
 }
 
 // Light that bounces about inside, 4 or 8 ulp off each face that it leaves, never gets out: no dihedral angle of these
-// bodies is acute. In q16 a ray that goes on starts up to 8 ulp along itself, and so beyond a face that near: measured, 65
-// of 100,000 get out.
+// bodies is acute. In q16, which steps off by 2 ulp, a hit 40 lengths away is known to 3: some 20 in a million get out.
 TYPED_TEST(MeshTest, NothingGetsOut)
 {
     Random random(8);
@@ -140,7 +139,7 @@ TYPED_TEST(MeshTest, NothingGetsOut)
     for (const Mesh* m : {&body, &star}) {
         const MeshTally t = MeshBench<TypeParam>(*m).bounce(19, bounces);
         EXPECT_EQ(t.bounces, bounces);
-        EXPECT_LE(t.escapes, qray::IsNarrow<TypeParam> ? bounces / 1000 : 0);
+        EXPECT_LE(t.escapes, qray::IsNarrow<TypeParam> ? 1 + bounces / 20000 : 0);
     }
 }
 

@@ -14,12 +14,29 @@ struct NoCount {
     constexpr void operator()(RayKind) const {}
 };
 
-// A hit on the plane through c: moved onto it where its error, which is that of t, is more than some ulp.
+// Where a ray meets a polygon. Corners that are not quite in one plane let a ray almost along it meet it far outside the
+// world, where differences of points would overflow: such a point is put back to the edge.
+template <class N>
+QRAY_INLINE constexpr Point<N> in_world(const Ray<N>& ray, typename N::Length t)
+{
+    const Point<N> a = along<N>(t, ray.direction), o = ray.origin;
+    if constexpr (N::is_fixed) {
+        using Length = typename N::Length;
+        const auto sum = [](Length u, Length v) {
+            constexpr Length edge{int32_t{64} << Length::frac};
+            return v > edge - u ? edge : v < -edge - u ? -edge : u + v;
+        };
+        return {sum(o.x, a.x), sum(o.y, a.y), sum(o.z, a.z)};
+    } else {
+        return o + a;
+    }
+}
+
+// A hit q on the plane through c: moved onto it where its error, which is that of t, is more than some ulp.
 template <class N>
 QRAY_INLINE constexpr Point<N> on_plane([[maybe_unused]] const Point<N>& c, [[maybe_unused]] const Direction<N>& normal,
-                                        const Ray<N>& ray, typename N::Length t)
+                                        const Point<N>& q)
 {
-    const Point<N> q = ray.origin + along<N>(t, ray.direction);
     if constexpr (!N::is_fixed)
         return q - along<N>(dot<N>(q - c, normal), normal);
     else if constexpr (IsNarrow<N>)
@@ -45,20 +62,20 @@ QRAY_INLINE constexpr void geometry_at(const Scene<N, E>& scene, const Ray<N>& r
         if (is(Kind::polygon)) {
             const Polygon<N>& polygon = scene.polygons[hit.index];
             g = polygon.normal;
-            q = on_plane(scene.vertices[polygon.first], g, ray, hit.t);
+            q = on_plane<N>(scene.vertices[polygon.first], g, in_world(ray, hit.t));
             return;
         }
     if constexpr (E.patch)
         if (is(Kind::patch)) {
             const Patch<N>& patch = scene.patches[hit.index];
             g = patch.normal;
-            q = on_plane(scene.vertices[patch.first], g, ray, hit.t);
+            q = on_plane<N>(scene.vertices[patch.first], g, ray.origin + along<N>(hit.t, ray.direction));
             return;
         }
     if constexpr (E.disc) {
         const Disc<N>& disc = scene.discs[hit.index];
         g = disc.normal;
-        q = on_plane(disc.centre, g, ray, hit.t);
+        q = on_plane<N>(disc.centre, g, ray.origin + along<N>(hit.t, ray.direction));
     }
 }
 
