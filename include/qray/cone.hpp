@@ -28,7 +28,7 @@ struct Cone {
     typename N::Unit sine;      // > 0 where the radius grows along the axis
     int32_t fine;               // >= 0; 0 in floating point: see sphere.hpp
     Tag tag;
-    [[no_unique_address]] Rounded<N> rounded{}; // of the middle
+    [[no_unique_address]] Rounded<N> rounded; // of the middle
 };
 
 template <class N>

@@ -62,7 +62,7 @@ QRAY_INLINE constexpr Point<N> fine_offset(typename N::Length middle, const Dire
 // A point's rounded coordinates less the exact ones, times 2^fine.
 template <class N>
 struct Rounded {
-    int16_t x = 0, y = 0, z = 0;
+    int16_t x, y, z;
 };
 template <class N>
     requires(!N::is_fixed || IsNarrow<N>)

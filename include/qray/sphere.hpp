@@ -17,7 +17,7 @@ struct Sphere {
     typename N::Scale inverse_radius; // of that
     int32_t fine;                     // >= 0; 0 in floating point
     Tag tag;
-    [[no_unique_address]] Rounded<N> rounded{}; // of the centre
+    [[no_unique_address]] Rounded<N> rounded; // of the centre
 };
 
 template <class N>

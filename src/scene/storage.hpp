@@ -2,6 +2,8 @@
 // Tables are as long as the limits; only the pages that a scene touches cost memory.
 #pragma once
 
+#include <type_traits>
+
 #include <qray/scene.hpp>
 
 #include "description.hpp"
@@ -10,6 +12,8 @@ namespace qray::scene {
 
 template <class T, uint32_t Capacity>
 struct Array {
+    // Or starting would write to all of it, where only the pages that a scene touches should cost.
+    static_assert(std::is_trivially_default_constructible_v<T>);
     uint32_t count;
     T data[Capacity];
 
