@@ -110,7 +110,6 @@ JOBS = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
 test: | $(filter deps,$(MAKECMDGOALS))
 	@$(MAKE) $(JOBS) -k --no-print-directory test-programs; built=$$?; \
 	    $(PYTHON) tests/run.py $(TESTS) && exit $$built
-test-programs: $(TEST_NEEDS) $(filter build/%,$(TESTS))
 
 PACKAGES := g++ libgtest-dev clang libclang-rt-14-dev gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm \
     gcc-riscv64-unknown-elf qemu-system-misc valgrind python3 netpbm
@@ -128,6 +127,8 @@ help:
 
 # Firmware, measurements and long tests: make run, size, profile, report, study, stability, soak, fuzz.
 include $(sort $(wildcard src/*/*.mk tests/*/*.mk))
+# After these, as names of what is needed are taken when a rule is read.
+test-programs: $(TEST_NEEDS) $(filter build/%,$(TESTS))
 
 .PHONY: all render test test-programs deps clean help FORCE
 .SECONDARY:
