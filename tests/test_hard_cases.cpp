@@ -107,10 +107,12 @@ TYPED_TEST(HardCases, SlabLetsOutWhatCameInParallel)
                 const auto d = M::direction(side * std::sin(angle) - n * std::cos(angle)), stored_n = M::direction(n);
                 Direction<N> inside{}, out{};
                 ASSERT_TRUE(bend<N>(d, stored_n, 1 / ior, inside));
-                if (!bend<N>(inside, stored_n, ior, out)) { // k, here cos^2, may be below its own error
+                const bool lets_out = bend<N>(inside, stored_n, ior, out);
+                if (IsNarrow<N> && !lets_out) { // k, here cos^2, may be below its own error
                     EXPECT_LE(std::cos(angle) * std::cos(angle), 2 * (eta_error + 4 * M::unit_ulp() * ior)) << ior << " " << degrees;
                     continue;
                 }
+                ASSERT_TRUE(lets_out);
                 worst = std::fmax(worst, distance(value(out), value(d)));
             }
             const double tangent = std::tan(degrees * M_PI / 180);

@@ -211,6 +211,7 @@ struct FixedSystem {
     }
     // The same of 64 bits, each component within 1.81 ulp. Where all are less than 2^32 their lowest bit is not seen, so
     // that (1, 0, 0) counts as 0.
+    // The same, but cut to 31 bits before: each component within 1.81 ulp. What is shorter than 2^32 loses its lowest bit.
     static constexpr bool normalise_wide(int64_t x, int64_t y, int64_t z, Unit& ux, Unit& uy, Unit& uz)
     {
         // To 31 bits: the upper words, joined by what the lower ones hold below them.
