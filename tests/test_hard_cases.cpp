@@ -385,64 +385,6 @@ TYPED_TEST(HardCases, FlatSceneTakesTheBaseSamplesOnly)
         EXPECT_EQ(samples_of<N>(k, 8 - k), 4u);
 }
 
-// --- Range
-
-TEST(HardRange, MostNegativeIntegers)
-{
-    EXPECT_EQ(q32::magnitude(INT32_MIN), 0x80000000u);
-    EXPECT_EQ(q32::magnitude(INT64_MIN), uint64_t{1} << 63);
-    EXPECT_EQ(wide_mul(INT32_MIN, INT32_MIN), int64_t{1} << 62);
-    EXPECT_EQ(wide_mul(INT32_MIN, INT32_MAX), -(int64_t{1} << 62) + (int64_t{1} << 31));
-    EXPECT_EQ(wide_square(INT32_MIN), uint64_t{1} << 62);
-    EXPECT_EQ(saturating_sub(INT32_MIN, INT32_MAX), INT32_MIN + 1); // whose negative is a number
-    EXPECT_EQ(saturating_sub(0, INT32_MIN), INT32_MAX);
-    EXPECT_EQ(saturating_add(INT32_MIN, INT32_MIN), INT32_MIN + 1);
-    EXPECT_EQ(divide(INT64_MIN, 1, 0), -INT32_MAX);
-    EXPECT_EQ(divide(INT64_MIN, 0xffffffffu, 32), -INT32_MAX);
-}
-
-TEST(HardRange, DotsOfThreeMaxima)
-{
-    EXPECT_EQ(wide_norm2(INT32_MIN, INT32_MIN, INT32_MIN), uint64_t{3} << 62);
-    EXPECT_EQ(wide_norm2(INT32_MAX, INT32_MAX, INT32_MAX), 3 * (uint64_t{INT32_MAX} * INT32_MAX));
-    // Of a position at the end of its range and a unit vector: 3 (2^31 - 1) 2^30 / sqrt 3 < 2^63.
-    const int32_t third = 619925131; // 2^30 / sqrt 3
-    EXPECT_EQ(wide_dot(INT32_MAX, INT32_MAX, INT32_MAX, third, third, third), int64_t{3} * INT32_MAX * third);
-    EXPECT_EQ(wide_dot(-INT32_MAX, -INT32_MAX, -INT32_MAX, third, third, third), -int64_t{3} * INT32_MAX * third);
-}
-
-TYPED_TEST(HardCases, NormaliseOfASingleRawUnit)
-{
-    using N = TypeParam;
-    using M = make<N>;
-    const double least = N::is_fixed ? value(N::ulp) : 0x1p-60;
-    Direction<N> u{};
-    ASSERT_TRUE(normalise<N>(M::point(least, 0, 0), u));
-    expect_near(value(u), {1, 0, 0}, M::unit_ulp());
-    ASSERT_TRUE(normalise<N>(M::point(-least, 0, 0), u));
-    expect_near(value(u), {-1, 0, 0}, M::unit_ulp());
-    ASSERT_TRUE(normalise<N>(M::point(least, least, least), u));
-    const double third = 1 / std::sqrt(3.0);
-    expect_near(value(u), {third, third, third}, M::unit_ulp());
-}
-
-TYPED_TEST(HardCases, NormaliseOfZeroIsRefused)
-{
-    using N = TypeParam;
-    Direction<N> u = make<N>::direction({0, 0, 1});
-    EXPECT_FALSE(normalise<N>(make<N>::point(0, 0, 0), u));
-    EXPECT_EQ(value(u.z), 1);
-}
-
-TYPED_TEST(HardCases, RootsOfZeroAndOfTheLargestArea)
-{
-    using N = TypeParam;
-    EXPECT_EQ(value(N::sqrt(N::length_zero * N::length_zero)), 0);
-    const double largest = IsNarrow<N> ? 45 : 120; // q16 squares no more than 46340 ulp
-    const auto most = make<N>::length(largest);
-    EXPECT_EQ(value(N::sqrt(most * most)), largest);
-}
-
 // --- Colour
 
 TYPED_TEST(HardCases, PowersNearOneAndOfZero)
