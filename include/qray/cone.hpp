@@ -10,7 +10,8 @@
 // special case where the ray is parallel to a generator. A nearly axial d is block-scaled by 2^k.
 //
 // U^2 - V^2 has an error of 2 |U| ulp, B^2 - A C one of 2 (|B| + rho |A|). Close to a generator, where A and B vanish and
-// the root is small, that is the better in fixed point: a ray could lose the end of a chord that is 16 ulp deep.
+// the root is small, that is the better in fixed point: a ray could lose the end of a chord that is 16 ulp deep. Where it
+// comes out small, too, it is formed again at -B/A: there it is -A C, and rho, near an apex, is far less than mid-axis.
 #pragma once
 
 #include "narrow.hpp"
@@ -94,8 +95,20 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
     const auto half_b = cx * cdx + cy * cdy - rho * ds;
     const auto c = cx * cx + cy * cy - rho * rho;
     if constexpr (N::is_fixed && !IsNarrow<N>)
-        if (along_generator && !N::small_discriminant(half_b, a, c, root) && leaving != Leaves::inward)
-            return 0;
+        if (along_generator) {
+            bool real = N::small_discriminant(half_b, a, c, root);
+            Length deepest{};
+            if ((!real || N::is_small(root)) && N::quotient(-half_b, a, k, deepest) && deepest <= s.bound
+                && -deepest <= s.bound) {
+                deepest = N::coarse(deepest, k);
+                const Length x = cx + N::length(deepest * cdx);
+                const Length y = cy + N::length(deepest * cdy);
+                const Length r = rho + N::length(deepest * ds);
+                real = N::root_of_product(a, r * r - x * x - y * y, root);
+            }
+            if (!real && leaving != Leaves::inward)
+                return 0;
+        }
     const auto q = half_b < typename N::Moment{} ? root - half_b : -(root + half_b);
 
     bool valid[2] = {N::quotient(q, a, k, tau[0]), N::quotient(c, q, k, tau[1])};

@@ -139,10 +139,22 @@ struct FixedSystem {
         root = {static_cast<int64_t>(static_cast<uint64_t>(isqrt(static_cast<uint64_t>(d))) << drop)};
         return true;
     }
+    // sqrt(a b) to 2 ulp of a Unit and a Length, or 0 and false where that is negative.
+    QRAY_SHARED static constexpr bool root_of_product(Cosine a, Area b, Moment& root)
+    {
+        const bool real = (a.raw < 0) == (b.raw < 0);
+        root = sqrt_unit({a.raw < 0 ? -a.raw : a.raw}) * sqrt({real ? b.raw < 0 ? -b.raw : b.raw : 0});
+        return real;
+    }
     QRAY_INLINE static constexpr bool is_small(Cosine a)
     {
         constexpr int64_t eighth = int64_t{1} << (2 * UnitFrac - 3);
         return -eighth < a.raw && eighth > a.raw;
+    }
+    // Is the root of a discriminant less than 2^-4, so that rounding may have changed it by more than a hundredth?
+    QRAY_INLINE static constexpr bool is_small(Moment root)
+    {
+        return root.raw < int64_t{1} << (LengthFrac + UnitFrac - 4);
     }
 
     // t = 2^k num / den, within 2 ulp. False where den is 0 or t does not fit Length.
