@@ -296,6 +296,91 @@ QRAY_CASE(SphereOfAnEleventhousandthOfItsDistance)
         }
 }
 
+// 128 bits without a sign: a board's compiler has none.
+struct Wide128 {
+    uint64_t high, low;
+
+    static constexpr Wide128 product(uint64_t a, uint64_t b)
+    {
+        constexpr uint64_t mask = 0xffffffff;
+        const uint64_t ah = a >> 32, al = a & mask, bh = b >> 32, bl = b & mask;
+        const uint64_t bottom = al * bl, one = ah * bl + (bottom >> 32), other = al * bh + (one & mask);
+        return {ah * bh + (one >> 32) + (other >> 32), (other << 32) | (bottom & mask)};
+    }
+    friend constexpr Wide128 operator-(Wide128 a, Wide128 b)
+    {
+        return {a.high - b.high - (a.low < b.low), a.low - b.low};
+    }
+    friend constexpr bool operator<(Wide128 a, Wide128 b) { return a.high < b.high || (a.high == b.high && a.low < b.low); }
+    constexpr Wide128 shifted(int by) const
+    {
+        return by == 0 ? *this : Wide128{(high << by) | (low >> (64 - by)), low << by};
+    }
+};
+
+// Does the line of a ray pass within r of a centre: is r^2 |d|^2 more than |v|^2 |d|^2 - (v.d)^2, in 128 bits on the
+// numbers as stored? Not `certain` within so much of r: half a 2^-25 in q32, four steps in q16.
+template <class N>
+    requires N::is_fixed
+bool passes_within(const Sphere<N>& s, const Ray<N>& ray, bool& certain)
+{
+    const auto square = [](int64_t x, int64_t y, int64_t z) { return static_cast<uint64_t>(x * x + y * y + z * z); };
+    const Point<N> c = s.centre, o = ray.origin;
+    const Direction<N> d = ray.direction;
+    const int64_t x = c.x.raw - o.x.raw, y = c.y.raw - o.y.raw, z = c.z.raw - o.z.raw;
+    const int64_t b = x * d.x.raw + y * d.y.raw + z * d.z.raw;
+    const uint64_t d2 = square(d.x.raw, d.y.raw, d.z.raw), along = static_cast<uint64_t>(b < 0 ? -b : b);
+    const Wide128 across = (Wide128::product(square(x, y, z), d2) - Wide128::product(along, along)).shifted(2 * s.fine);
+    const uint64_t r = static_cast<uint64_t>(s.radius.raw);
+    const Wide128 reach = Wide128::product(r * r, d2);
+    const bool inside = across < reach;
+    const Wide128 off = inside ? reach - across : across - reach;
+    const uint64_t r_fine = r << s.fine;
+    certain = Wide128::product(IsNarrow<N> ? r_fine * 8 : r_fine / 2, d2) < off;
+    return inside;
+}
+
+// Rays of any direction that pass the edge of a sphere of r at 55 within some steps.
+template <class N>
+void aim_at_the_edge(Check& check, int64_t num, int64_t den, int64_t steps)
+{
+    QRAY_NAMES;
+    Random random{71};
+    int hits = 0, misses = 0;
+    for (int i = 0; i < 400; i++) {
+        Direction<N> d{}, n{};
+        const auto any = [&random] { return M::point({random.in(-99, 99), random.in(-99, 99), random.in(1, 99)}, 4); };
+        normalise<N>(any(), d);
+        // Across d: other - (other.d) d, but for roundings, which do not matter.
+        const Point<N> other = any();
+        const Point<N> aside = other - along<N>(N::length(dot<N>(other, d)), d);
+        if (norm2<N>(aside) < number<Length>(1) * number<Length>(1) || !normalise<N>(aside, n))
+            continue;
+        const Sphere<N> s = M::sphere(M::point({random.in(-9, 9), random.in(-9, 9), random.in(-9, 9)}), num, den);
+        Length away = number<Length>(num, den);
+        const int64_t beside = random.in(-steps, steps);
+        away = away + number<Length>(beside, int64_t{1} << (IsNarrow<N> ? 10 : N::is_fixed ? 24 : 14));
+        const Point<N> foot = s.centre + along<N>(away, n);
+        const Ray<N> ray = M::ray(foot - along<N>(number<Length>(N::is_fixed ? 55 : 5), d), d);
+        bool certain = beside > 8 || beside < -8, expected = beside < 0;
+        if constexpr (N::is_fixed)
+            expected = passes_within<N>(s, ray, certain);
+        if (!certain)
+            continue;
+        QRAY_HOLDS(meets(check, s, ray, t) == expected);
+        expected ? hits++ : misses++;
+    }
+    QRAY_HOLDS(hits > 50 && misses > 50);
+}
+
+QRAY_CASE(SphereSeenFromAnywhereBesideItsEdge) { aim_at_the_edge<N>(check, 1, 1, 24); }
+
+// In q16 a tenth of a pixel: as small as half a hundred steps.
+QRAY_CASE(SmallSphereSeenFromAnywhereBesideItsEdge)
+{
+    IsNarrow<N> ? aim_at_the_edge<N>(check, 50, 1000, 40) : aim_at_the_edge<N>(check, 5, 1000, N::is_fixed ? 6 : 24);
+}
+
 QRAY_CASE(SphereSeenFromItsCentreIsItsRadiusAway)
 {
     QRAY_NAMES;
@@ -884,6 +969,37 @@ QRAY_CASE(ThousandBouncesKeepTheDirectionUnit)
     }
 }
 
+// Back and forth between two balls, along the line of their centres, from a direction that is too long by some steps:
+// what a normal takes over from a direction must not grow.
+QRAY_CASE(ThousandBouncesBetweenTwoBallsKeepTheDirectionUnit)
+{
+    QRAY_NAMES;
+    const Tag tags[2] = {make_tag(0, 0), make_tag(1, 0)};
+    const Sphere<N> balls[2] = {M::sphere(M::point({-5, 0, 0}), 1, 1, tags[0]), M::sphere(M::point({5, 0, 0}), 2, 1, tags[1])};
+    const auto one = N::one * N::one;
+    const int64_t float_has = sizeof(Unit) == 4 && !N::is_fixed ? 20 : 2;
+    const Unit little = IsNarrow<N> ? number<Unit>(5, 1 << 14) : number<Unit>(float_has, 10000000);
+    Ray<N> ray = M::ray(M::point({0, 0, 0}), M::direction({1, 0, 0}));
+    ray.direction.x = ray.direction.x + number<Unit>(2, int64_t{1} << unit_bits<N>);
+    for (int i = 0; i < 1000; i++) {
+        const Sphere<N>& s = balls[(i + 1) % 2];
+        hide(ray);
+        Local<N> local{};
+        const bool hit = intersect(s, ray, N::length_max, t, local);
+        QRAY_HOLDS(hit);
+        if (!hit)
+            return;
+        Point<N> q{};
+        Direction<N> n{};
+        surface_of(s, local, ray.direction, q, n);
+        const auto n_d = N::unit(dot<N>(n, ray.direction));
+        ray = M::ray(step_off<N>(q, n, true), mirrored<N>(ray.direction, n, n_d), tags[(i + 1) % 2], true);
+        const auto d = ray.direction;
+        const auto square = d.x * d.x + d.y * d.y + d.z * d.z;
+        QRAY_HOLDS(square - one <= N::one * little && one - square <= N::one * little);
+    }
+}
+
 // --- Texture
 
 // Cells of 2^-15 (q16: 1), at lattice points and one step before them, up to 2^20 cells away.
@@ -1028,6 +1144,8 @@ QRAY_CASE(PowersNearOneAndOfZero)
     X(SphereTouchedByATangentOfIntegers)             \
     X(SphereAimedAMillionthOfItsRadiusBesideItsEdge) \
     X(SphereOfAnEleventhousandthOfItsDistance)       \
+    X(SphereSeenFromAnywhereBesideItsEdge)           \
+    X(SmallSphereSeenFromAnywhereBesideItsEdge)      \
     X(SphereSeenFromItsCentreIsItsRadiusAway)        \
     X(SphereBehindIsNotMet)                          \
     X(ConcentricSpheresAMillionthApartAreMetInOrder) \
@@ -1059,6 +1177,7 @@ QRAY_CASE(PowersNearOneAndOfZero)
     X(RefractionAMillionthOffTheCriticalAngle)       \
     X(SlabLetsOutWhatCameInParallel)                 \
     X(ThousandBouncesKeepTheDirectionUnit)           \
+    X(ThousandBouncesBetweenTwoBallsKeepTheDirectionUnit) \
     X(TextureCellsAMillionAwayAreRight)              \
     X(MostNegativeIntegers)                          \
     X(DotsOfThreeMaxima)                             \

@@ -10,3 +10,7 @@ build/obj/tests/stability/%.o: tests/stability/%.cpp build/obj/flags
 stability: build/stability/stability
 	@$(PYTHON) tests/stability/stability.py $(if $(RAYS),--rays $(RAYS)) $(if $(SEED),--seed $(SEED))
 .PHONY: stability
+#   make robustness             what robust forms cost in a picture, on boards: README's table (5 minutes)
+robustness: build/qray
+	@$(PYTHON) tests/stability/lean.py $(SCENE) $(SIZE)
+.PHONY: robustness
