@@ -16,6 +16,7 @@ import calibrate  # noqa: E402
 import figures  # noqa: E402
 import ladder  # noqa: E402
 import report  # noqa: E402
+import settings  # noqa: E402
 import study  # noqa: E402
 import svg  # noqa: E402
 
@@ -79,9 +80,9 @@ class Parts(unittest.TestCase):
                                              "<!-- report:two -->\n<!-- /report -->", reports)), 1)
 
     def test_labels_name_what_differs(self):
-        self.assertEqual(study.label(study.DEFAULT), "q32")
-        self.assertEqual(study.label(("float", "4", 5, 0.0014)), "float 4×")
-        self.assertEqual(study.label(("q32", "a2,0.0625", 3, 0.0014)), "a2 depth 3")
+        self.assertEqual(settings.label(settings.DEFAULT), "q32")
+        self.assertEqual(settings.label(("float", "4", 5, 0.0014)), "float 4×")
+        self.assertEqual(settings.label(("q32", "a2,0.0625", 3, 0.0014)), "a2 depth 3")
 
 
 class Readme(unittest.TestCase):

@@ -22,7 +22,7 @@ import tempfile
 sys.path.insert(0, "src/boards/common")
 import elf as elf_file  # noqa: E402
 import profile as profiler  # noqa: E402
-import runs  # noqa: E402
+from programs import environment, fail, message_of  # noqa: E402
 
 # Cycles by class of src/boards/common/profile.py; `several` is what a load or store of several costs beside
 # one cycle for each register, `return` what it costs where it pops them.
@@ -77,8 +77,9 @@ def chains(tools, path, addresses):
 
 
 def step_of(chain):
-    for file, _ in chain:
-        if file in STEPS:
+    for file, function in chain:
+        # A function out of line may start with lines that compilers take from main's file.
+        if file in STEPS and (file != "main" or function == "main"):
             return STEPS[file]
     return None
 
@@ -128,7 +129,7 @@ def count(command, image, step):
                         cached.pop(address, None)
                     block.append(address)
         if process.wait() != 0:
-            runs.fail(f"{image['path']}: exit status {process.returncode}")
+            fail(f"{image['path']}: exit status {process.returncode}")
     counts = collections.Counter()
     for pc, number in runs_of.items():
         for address in blocks[pc]:
@@ -140,9 +141,9 @@ def measure(run, name):
     """Builds the firmware of a run and traces it: {instructions, cycles, classes, steps}."""
     build = [c for c in run.command(name)]
     build[build.index("profile")] = "size"
-    done = subprocess.run(build, capture_output=True, text=True, env=runs.environment())
+    done = subprocess.run(build, capture_output=True, text=True, env=environment())
     if done.returncode != 0:
-        return {"refused": runs.message_of(done)}
+        return {"refused": message_of(done)}
     with open(f"src/boards/{run.board}/board.mk") as file:
         settings = dict(re.findall(r"^(\w+)\s*:=\s*(.*)$", file.read(), re.M))
     path = f"build/{run.board}/{name}-{run.number}.elf"

@@ -5,7 +5,7 @@ import os
 import subprocess
 
 import runs
-import study as study_file
+import settings
 import svg
 
 COLOURS = {"q16": "#c0392b", "q32": "#1f5fa8", "float": "#1a8f4c", "double": "#8e44ad"}
@@ -63,7 +63,7 @@ def frontier(study, board, path):
         for a, b, r in sorted(points, key=lambda p: any(p[2] is q[2] for q in best)):
             pale = not any(r is q[2] for q in best)
             plot.mark(a, b, SHAPES.get(r["number"], "circle"), colour(r["number"]),
-                      study_file.label(r["setting"]), pale)
+                      settings.label(r["setting"]), pale)
         plot.finish()
     out.text(60, 24, f"{runs.BOARDS[board]}: what accuracy costs", 16, weight="bold")
     x = 60
@@ -86,8 +86,8 @@ def bits(study, path):
     """Arithmetic error of each number system: a mark for each scene."""
     numbers = runs.numbers()
     out = svg.Svg(640, 400)
-    values = {n: [(v[n, *study_file.DEFAULT[1:]].get("arithmetic psnr"), scene)
-                  for scene, v in study.everywhere.items() if v.get((n, *study_file.DEFAULT[1:]))]
+    values = {n: [(v[n, *settings.DEFAULT[1:]].get("arithmetic psnr"), scene)
+                  for scene, v in study.everywhere.items() if v.get((n, *settings.DEFAULT[1:]))]
               for n in numbers if n != "double"}
     known = [p for v in values.values() for p, _ in v]
     low, _, _ = range_of(known + [99])
@@ -114,17 +114,17 @@ def mean_samples(study, scene, setting):
     if setting[1][0] != "a":
         return float(setting[1])
     e = study.errors[scene]
-    return e[setting]["rays"] / e[study_file.DEFAULT]["rays"]
+    return e[setting]["rays"] / e[settings.DEFAULT]["rays"]
 
 
 def samples(study, path):
     """Instructions and error against samples."""
     out = svg.Svg(860, 430)
-    boards = {b: i for i, b in enumerate(study_file.BOARDS)}
+    boards = {b: i for i, b in enumerate(settings.STUDIED)}
     tones = ["#b9770e", "#1f5fa8", "#8e44ad", "#1a8f4c"]
     scene = list(study.scenes)[-1]
     chosen = [r for r in study.rows if r["scene"] == scene and r["number"] == "q32"
-              and r["setting"][2:] == study_file.DEFAULT[2:]]
+              and r["setting"][2:] == settings.DEFAULT[2:]]
     base = {r["board"]: r[COST] for r in chosen if r["samples"] == "1"}
     points = [(mean_samples(study, scene, r["setting"]), r[COST] / base[r["board"]], r)
               for r in chosen]
@@ -147,7 +147,7 @@ def samples(study, path):
     errors = []
     for k, at in enumerate(study.scenes):
         for setting, e in study.errors[at].items():
-            if setting[0] == "q32" and setting[2:] == study_file.DEFAULT[2:] and e:
+            if setting[0] == "q32" and setting[2:] == settings.DEFAULT[2:] and e:
                 errors.append((mean_samples(study, at, setting), e["total rms"], setting, k))
     right = svg.Plot(out, (470, 70, 345, 290), x_range, range_of([e[1] for e in errors], True, 0.08),
                      "error", "samples a pixel", "levels, rms")

@@ -13,29 +13,12 @@ import sys
 import threading
 import time
 
+import cycles
+from programs import environment, fail, message_of, output_of
+from settings import BOARDS, numbers  # noqa: F401
+
 CACHE = "build/study/cache"
-# Short names of boards, in the order of tables.
-BOARDS = {"microbit": "M0", "mps2_an385": "M3", "mps2_an386": "M4F", "mps2_an500": "M7F", "rv32_virt": "RV32"}
 OPTIONS = ("SAMPLES", "ADAPTIVE", "DEPTH", "CUTOFF")
-
-
-def fail(text):
-    raise SystemExit(f"{os.path.basename(sys.argv[0])}: {text}")
-
-
-def environment():
-    """Without what an outer make says to its own children."""
-    return {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
-
-
-def output_of(*command):
-    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
-
-
-def numbers():
-    """The number systems, as the command names them."""
-    with open("src/cli/options.hpp") as file:
-        return re.findall(r'"(\w+)"', re.search(r"number_names\[\] = \{(.*?)\}", file.read(), re.S)[1])
 
 
 def tree_hash(*folders):
@@ -50,17 +33,12 @@ def tree_hash(*folders):
     return digest.hexdigest()
 
 
-def message_of(done):
-    """The first error in what a program said, else its last line."""
-    lines = (done.stdout + done.stderr).strip().splitlines() or ["no message"]
-    return next((line for line in lines if "error:" in line), lines[-1])
-
-
 class Inputs:
     """What every run depends on, read once."""
 
     def __init__(self):
         self.sources = tree_hash("include", "src/scene", "src/boards", "src/firmware")
+        self.tracing = tree_hash("src/study/cycles.py")
         self.compilers = {}
 
     def compiler(self, board):
@@ -97,7 +75,7 @@ class Run:
         with open(self.scene, "rb") as file:
             scene = hashlib.sha256(file.read()).hexdigest()
         what = [inputs.sources, inputs.compiler(self.board), self.board, scene, self.number, self.size,
-                self.profile, self.rays, sorted(self.options.items())]
+                self.profile and inputs.tracing, self.rays, sorted(self.options.items())]
         return hashlib.sha256(json.dumps(what).encode()).hexdigest()[:24]
 
     def command(self, name):
@@ -115,7 +93,6 @@ class Run:
         name = f"study-{key}"
         if self.profile:
             # Its own command would profile the whole program by source line, which takes the longest.
-            import cycles
             self.result = cycles.measure(self, name)
         else:
             self.result = self.measure(self.command(name))

@@ -17,11 +17,10 @@ sys.dont_write_bytecode = True
 import calibrate  # noqa: E402
 import figures  # noqa: E402
 import runs  # noqa: E402
+from settings import DEFAULT, STUDIED as BOARDS  # noqa: E402
 
 FOLDER = "build/study"
 MEASURE = FOLDER + "/measure"
-DEFAULT = ("q32", "1", 5, 0.0014)
-BOARDS = ["microbit", "mps2_an385", "mps2_an386", "rv32_virt"]
 # Scenes of the boards, and the size of their pictures there.
 SCENES = {"scenes/floor.nff": "32x24", "scenes/glass.nff": "24x18", "scenes/showcase.nff": "24x18"}
 ERROR_SIZE = "160x120"
@@ -29,7 +28,7 @@ ERRORS = ["psnr", "rms", "largest", "off"]
 
 
 def settings(quick=False):
-    """(number, samples, depth, cutoff): SAMPLES, or ADAPTIVE's value after an `a`."""
+    """As settings.DEFAULT."""
     number, samples, depth, cutoff = DEFAULT
     if quick:
         return [DEFAULT, ("float", samples, depth, cutoff), (number, "4", depth, cutoff)]
@@ -39,21 +38,6 @@ def settings(quick=False):
     out += [(number, samples, d, cutoff) for d in (1, 2, 3)]
     out += [(number, samples, depth, c) for c in (0.02,)]
     return out
-
-
-def label(setting):
-    """What differs from the default."""
-    number, samples, depth, cutoff = setting
-    out = []
-    if number != DEFAULT[0] or setting == DEFAULT:
-        out.append(number)
-    if samples != DEFAULT[1]:
-        out.append(samples.split(",")[0] if samples[0] == "a" else f"{samples}×")
-    if depth != DEFAULT[2]:
-        out.append(f"depth {depth}")
-    if cutoff != DEFAULT[3]:
-        out.append(f"cutoff {cutoff}")
-    return " ".join(out)
 
 
 def options(setting):

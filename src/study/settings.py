@@ -1,0 +1,31 @@
+"""Boards, number systems and settings: what measurements name."""
+
+import re
+
+# Short names of boards, in the order of tables.
+BOARDS = {"microbit": "M0", "mps2_an385": "M3", "mps2_an386": "M4F", "mps2_an500": "M7F", "rv32_virt": "RV32"}
+# Those that are studied, and that `qray plan` knows.
+STUDIED = ["microbit", "mps2_an385", "mps2_an386", "rv32_virt"]
+# Number system, samples (or ADAPTIVE's value after an `a`), depth, cutoff.
+DEFAULT = ("q32", "1", 5, 0.0014)
+
+
+def numbers():
+    """The number systems, as the command names them."""
+    with open("src/cli/options.hpp") as file:
+        return re.findall(r'"(\w+)"', re.search(r"number_names\[\] = \{(.*?)\}", file.read(), re.S)[1])
+
+
+def label(setting):
+    """What differs from the default."""
+    number, samples, depth, cutoff = setting
+    out = []
+    if number != DEFAULT[0] or setting == DEFAULT:
+        out.append(number)
+    if samples != DEFAULT[1]:
+        out.append(samples.split(",")[0] if samples[0] == "a" else f"{samples}×")
+    if depth != DEFAULT[2]:
+        out.append(f"depth {depth}")
+    if cutoff != DEFAULT[3]:
+        out.append(f"cutoff {cutoff}")
+    return " ".join(out)
