@@ -9,6 +9,7 @@ import re
 import sys
 
 sys.dont_write_bytecode = True
+import floor  # noqa: E402
 import ladder  # noqa: E402
 import runs  # noqa: E402
 import text as texts  # noqa: E402
@@ -68,6 +69,7 @@ REPORTS = {
     "boards": (boards, lambda: list(BOARD_SCENES) + [f"| {short} | {n} |" for short in runs.BOARDS.values()
                                                      for n in runs.numbers()]),
     **texts.REPORTS,
+    **floor.REPORTS,
     "effects": (effects, lambda: ["+ " + name for name, *_ in ladder.STEPS[1:]]),
 }
 
