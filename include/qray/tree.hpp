@@ -8,9 +8,11 @@
 
 namespace qray {
 
+// In the units of BoundedRay.
 struct BallBlock {
-    float x[4], y[4], z[4];
-    float radius[4]; // negative: no ball
+    Float4 x, y, z;
+    Float4 reach;  // the radius, by the length of a direction
+    Float4 square; // of that; -infinity: no ball
 };
 
 // A shape's kind and its index in the table of that kind.
@@ -30,15 +32,22 @@ struct Tree {
     uint32_t top;                 // blocks of the highest level: few
 };
 
-// A ray in binary32.
+// A ray in binary32, in units that make conversion cheap: a fixed point's ulp, also for directions.
+template <class N>
 class BoundedRay {
 public:
-    template <class N>
+    static constexpr bool raw = N::is_fixed && !IsNarrow<N>;
+    // A length of 1, and the length of a direction.
+    static constexpr float length = raw ? static_cast<float>(int64_t{1} << 24) : 1;
+    static constexpr float unit = raw ? static_cast<float>(int64_t{1} << 30) : 1;
+
     explicit QRAY_INLINE BoundedRay(const Ray<N>& ray)
         : ox(all_four(as_float(ray.origin.x))), oy(all_four(as_float(ray.origin.y))),
           oz(all_four(as_float(ray.origin.z))), dx(all_four(as_float(ray.direction.x))),
           dy(all_four(as_float(ray.direction.y))), dz(all_four(as_float(ray.direction.z)))
     {
+        if constexpr (raw)
+            static_assert(N::Length::frac == 24 && N::Unit::frac == 30);
         if constexpr (IsNarrow<N>) { // the direction's length is wrong in the 14th bit
             const Float4 k = 1.5f - 0.5f * (dx * dx + dy * dy + dz * dz);
             dx *= k;
@@ -50,43 +59,50 @@ public:
     // Which balls of a block the ray may enter.
     QRAY_INLINE uint32_t enters(const BallBlock& b) const
     {
-        const Float4 x = load(b.x) - ox, y = load(b.y) - oy, z = load(b.z) - oz, r = load(b.radius);
-        const Float4 along = x * dx + y * dy + z * dz;
-        return mask_bits(meets(x, y, z, r, along));
+        Float4 along;
+        const Float4 apart = outside(b, along);
+        return mask_bits((apart <= b.square) & ~sign(along + b.reach));
     }
-    // Which it may enter before `limit`.
+    // Which it may enter before `limit`, times length and unit.
     QRAY_INLINE uint32_t enters(const BallBlock& b, float limit) const
     {
-        const Float4 x = load(b.x) - ox, y = load(b.y) - oy, z = load(b.z) - oz, r = load(b.radius);
-        const Float4 along = x * dx + y * dy + z * dz;
-        return mask_bits(meets(x, y, z, r, along) & (along - r <= limit));
+        Float4 along;
+        const Float4 apart = outside(b, along);
+        return mask_bits((apart <= b.square) & ~sign(along + b.reach) & (along - b.reach <= limit));
     }
 
     template <class L>
     static QRAY_INLINE float as_float(L v)
     {
-        if constexpr (requires { v.raw; })
+        if constexpr (raw)
+            return static_cast<float>(v.raw);
+        else if constexpr (N::is_fixed)
             return static_cast<float>(v.raw) * (1.0f / static_cast<float>(int64_t{1} << L::frac));
         else
             return static_cast<float>(v);
     }
 
 private:
-    // |v|^2 - (v.d)^2 <= r^2 and v.d >= -r. With |v| < 2^7 and 24 bits, each side of the first is wrong by less than
-    // 2^-19 |v|^2; the builder adds to r what the rounded coordinates may be off.
-    QRAY_INLINE static Mask4 meets(Float4 x, Float4 y, Float4 z, Float4 r, Float4 along)
+    // |v|^2 - (v.d)^2, to be compared with r^2, and v.d, which is at least -r unless the ball is behind. With |v| < 2^7 and
+    // 24 bits, each side of the first comparison is wrong by less than 2^-19 |v|^2; the builder adds to r what the
+    // rounded coordinates may be off.
+    QRAY_INLINE Float4 outside(const BallBlock& b, Float4& along) const
     {
+        constexpr float k = (1.0f - 0x1p-18f) * unit * unit;
+        const Float4 x = b.x - ox, y = b.y - oy, z = b.z - oz;
+        along = x * dx + y * dy + z * dz;
         const Float4 square = x * x + y * y + z * z;
-        return (square * (1.0f - 0x1p-18f) - along * along <= r * r) & (along >= -r);
+        return square * Float4{k, k, k, k} - along * along;
     }
-    static QRAY_INLINE Float4 load(const float* p) { return Float4{p[0], p[1], p[2], p[3]}; }
+    // The sign is the highest bit, which is the only one that mask_bits() sees.
+    QRAY_INLINE static Mask4 sign(Float4 v) { return reinterpret_cast<Mask4>(v); }
     Float4 ox, oy, oz, dx, dy, dz;
 };
 
 // Goes through the tree and stops at each block of level 0 that holds shapes that the ray may meet.
+template <class N>
 class Walk {
 public:
-    template <class N>
     QRAY_INLINE Walk(const Tree& over, const Ray<N>& ray) : tree(over), bounded(ray), level(over.levels), top(0), mask(0)
     {
     }
@@ -96,7 +112,7 @@ public:
     uint32_t next(float limit, uint32_t& base)
     {
         // A shape may lie a little beyond its rounded limit.
-        limit = limit * (1.0f + 0x1p-20f) + 0x1p-16f;
+        limit = limit * ((1.0f + 0x1p-20f) * BoundedRay<N>::unit) + 0x1p-16f * BoundedRay<N>::length * BoundedRay<N>::unit;
         for (;;) {
             while (mask == 0) {
                 if (level >= tree.levels - 1) {
@@ -127,7 +143,7 @@ public:
 
 private:
     const Tree& tree;
-    BoundedRay bounded;
+    BoundedRay<N> bounded;
     int level;
     uint32_t top, block, mask;
     struct {
@@ -141,20 +157,22 @@ template <class N, class Limit, class Visit>
 QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit visit)
 {
     if (tree.levels == 1) { // a dozen shapes at most: all at once
-        const BoundedRay bounded(ray);
+        const BoundedRay<N> bounded(ray);
         uint32_t mask = bounded.enters(tree.blocks[0]);
-        for (uint32_t b = 1; b < tree.top; b++)
-            mask |= bounded.enters(tree.blocks[b]) << (4 * b);
+        if (tree.top > 1)
+            mask |= bounded.enters(tree.blocks[1]) << 4;
+        if (tree.top > 2)
+            mask |= bounded.enters(tree.blocks[2]) << 8;
         for (; mask != 0; mask &= mask - 1)
             if (visit(tree.shapes[lowest_bit(mask)]))
                 return;
         return;
     }
-    Walk steps(tree, ray);
+    Walk<N> steps(tree, ray);
     uint32_t base = 0;
     // Where the direction's length is wrong in the 14th bit, so is a distance.
     const auto bound = [&limit] {
-        const float t = BoundedRay::as_float(limit());
+        const float t = BoundedRay<N>::as_float(limit());
         return IsNarrow<N> ? t * (1.0f + 0x1p-12f) + 0x1p-6f : t;
     };
     while (uint32_t mask = steps.next(bound(), base))

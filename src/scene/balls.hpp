@@ -91,23 +91,35 @@ private:
         return 1 + (spread(b.x) | spread(b.y) << 1 | spread(b.z) << 2);
     }
 
+    using Bounds = BoundedRay<N>;
+    static constexpr double length = Bounds::length, reach = length * Bounds::unit;
+
+    // What the block's ball number i bounds; a radius below 0 if it is none.
+    static Ball ball(const BallBlock& b, int i)
+    {
+        return {static_cast<double>(b.x[i]) / length, static_cast<double>(b.y[i]) / length, static_cast<double>(b.z[i]) / length,
+                static_cast<double>(b.reach[i]) / reach};
+    }
+
     static Ball around(const BallBlock& b)
     {
         double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-        const float* c[3] = {b.x, b.y, b.z};
-        for (int i = 0; i < 4; i++)
-            for (int k = 0; k < 3 && b.radius[i] >= 0; k++) {
-                low[k] = fmin(low[k], static_cast<double>(c[k][i] - b.radius[i]));
-                high[k] = fmax(high[k], static_cast<double>(c[k][i] + b.radius[i]));
+        for (int i = 0; i < 4; i++) {
+            const Ball part = ball(b, i);
+            const double c[3] = {part.x, part.y, part.z};
+            for (int k = 0; k < 3 && part.radius >= 0; k++) {
+                low[k] = fmin(low[k], c[k] - part.radius);
+                high[k] = fmax(high[k], c[k] + part.radius);
             }
-        Ball ball{(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2, 0};
-        for (int i = 0; i < 4; i++)
-            if (b.radius[i] >= 0) {
-                const double x = static_cast<double>(b.x[i]) - ball.x, y = static_cast<double>(b.y[i]) - ball.y,
-                             z = static_cast<double>(b.z[i]) - ball.z;
-                ball.radius = fmax(ball.radius, sqrt(x * x + y * y + z * z) + static_cast<double>(b.radius[i]));
-            }
-        return ball;
+        }
+        Ball whole{(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2, 0};
+        for (int i = 0; i < 4; i++) {
+            const Ball part = ball(b, i);
+            const double x = part.x - whole.x, y = part.y - whole.y, z = part.z - whole.z;
+            if (part.radius >= 0)
+                whole.radius = fmax(whole.radius, sqrt(x * x + y * y + z * z) + part.radius);
+        }
+        return whole;
     }
 
     // By how much a hit may lie outside its shape: see tree.hpp, q16.hpp.
@@ -124,11 +136,13 @@ private:
             for (uint32_t i = 0; i < 4; i++) {
                 const bool present = b * 4 + i < count;
                 const Ball ball = present ? of(b * 4 + i) : Ball{0, 0, 0, 0};
-                block.x[i] = static_cast<float>(ball.x);
-                block.y[i] = static_cast<float>(ball.y);
-                block.z[i] = static_cast<float>(ball.z);
+                block.x[i] = static_cast<float>(ball.x * length);
+                block.y[i] = static_cast<float>(ball.y * length);
+                block.z[i] = static_cast<float>(ball.z * length);
                 // Wider by what coordinates below 2^7 may be off in 24 bits, here and in a ray's origin.
-                block.radius[i] = present ? static_cast<float>(ball.radius * (1 + 1e-6) + slack) : -1e9f;
+                const double r = (ball.radius * (1 + 1e-6) + slack) * reach;
+                block.reach[i] = present ? static_cast<float>(r) : -1.0f;
+                block.square[i] = present ? static_cast<float>(r * r) : -HUGE_VALF;
             }
         }
         return blocks;
