@@ -39,6 +39,13 @@
 #define QRAY_UNROLL
 #endif
 
+// Of a function object that asks one shape: where a tree names the shapes, in a place or two, the ray stays in registers.
+#if __SIZEOF_POINTER__ == 4
+#define QRAY_INLINE_LAMBDA
+#else
+#define QRAY_INLINE_LAMBDA __attribute__((always_inline))
+#endif
+
 namespace qray {
 
 // False where a 32 x 32 -> 64 bit product takes some 18 instructions rather than one or two.
