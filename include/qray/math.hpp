@@ -50,6 +50,11 @@ struct Normal {
 
 QRAY_INLINE constexpr Normal normalise_even(uint64_t x)
 {
+    if constexpr (sizeof(void*) == 8) {
+        const int half = count_leading_zeros(x | 1) / 2;
+        const uint64_t v = (x != 0 ? x : 1) << (2 * half);
+        return {static_cast<uint32_t>(v >> 32), static_cast<uint32_t>(v), half};
+    }
     uint32_t high = static_cast<uint32_t>(x >> 32);
     uint32_t low = static_cast<uint32_t>(x);
     int half = 0;
@@ -66,6 +71,8 @@ QRAY_INLINE constexpr Normal normalise_even(uint64_t x)
 // a * b / 2^16, rounded down, for |a b| < 2^47 and b < 2^15.
 constexpr int32_t mul_shift_16(int32_t a, uint32_t b)
 {
+    if constexpr (sizeof(void*) == 8)
+        return static_cast<int32_t>(int64_t{a} * b >> 16);
     if constexpr (has_wide_multiply)
         return static_cast<int32_t>(wide_mul(a, static_cast<int32_t>(b << 16)) >> 32);
     return (a >> 16) * static_cast<int32_t>(b) + static_cast<int32_t>(static_cast<uint16_t>(a) * b >> 16);
@@ -175,10 +182,6 @@ namespace detail {
 // x m / 2^(32 + halve) to the nearest, for m >= 2^31 and halve 0 or 1.
 constexpr int32_t scaled_component(int32_t x, uint32_t m, int halve)
 {
-    if constexpr (sizeof(void*) == 8) {
-        const int down = 32 + halve;
-        return static_cast<int32_t>((int64_t{x} * m + (int64_t{1} << (down - 1))) >> down);
-    }
     // As a signed number m is too small by 2^32.
     const uint64_t p = static_cast<uint64_t>(wide_mul(x, static_cast<int32_t>(m)));
     const uint32_t whole = static_cast<uint32_t>(p >> 32) + static_cast<uint32_t>(x);
@@ -194,6 +197,17 @@ QRAY_SHARED constexpr bool unit_vector(int32_t x, int32_t y, int32_t z, int32_t*
 {
     if ((x | y | z) == 0)
         return false;
+    if constexpr (sizeof(void*) == 8) {
+        // The same in 64-bit registers: x 2^up m / 2^(32 + halve), as below, where half = up + 1 - halve.
+        const detail::Normal v = detail::normalise_even(wide_norm2(x, y, z));
+        const int64_t m = detail::rsqrt_mantissa(v.high, v.low);
+        const int down = 33 - v.half;
+        const int64_t half = int64_t{1} << (down - 1);
+        u[0] = static_cast<int32_t>((x * m + half) >> down);
+        u[1] = static_cast<int32_t>((y * m + half) >> down);
+        u[2] = static_cast<int32_t>((z * m + half) >> down);
+        return true;
+    }
     // The magnitudes, those of negative numbers less one.
     const uint32_t bits = static_cast<uint32_t>((x ^ (x >> 31)) | (y ^ (y >> 31)) | (z ^ (z >> 31)) | 1);
     // To magnitudes of at most 2^31, the largest at least 2^30.
@@ -277,6 +291,8 @@ QRAY_SHARED constexpr uint32_t divide_magnitude(uint64_t n, uint32_t den, int sh
     high += low < half;
     if (high >= half)
         return limit;
+    if constexpr (sizeof(void*) == 8)
+        return static_cast<uint32_t>((uint64_t{high} << 32 | low) / den);
     // The quotient is less than 2^31; the estimate is too small, by less than 4.
     uint32_t quotient = mul_high((high << 1) + (low >> 31), reciprocal_mantissa(den) - 1);
     uint64_t rest = (uint64_t{high} << 32 | low) - wide_mul(quotient, den);

@@ -221,14 +221,17 @@ struct FixedSystem {
     {
         return normalise(x.raw, y.raw, z.raw, ux, uy, uz);
     }
-    // The same of 64 bits, each component within 1.81 ulp. Where all are less than 2^32 their lowest bit is not seen, so
-    // that (1, 0, 0) counts as 0.
     // The same, but cut to 31 bits before: each component within 1.81 ulp. What is shorter than 2^32 loses its lowest bit.
     static constexpr bool normalise_wide(int64_t x, int64_t y, int64_t z, Unit& ux, Unit& uy, Unit& uz)
     {
         // To 31 bits: the upper words, joined by what the lower ones hold below them.
-        const uint32_t m = high_magnitude(x) | high_magnitude(y) | high_magnitude(z);
-        const int up = count_leading_zeros(m) - 1;
+        int up = 31;
+        if constexpr (sizeof(void*) == 8) {
+            const int zeros = count_leading_zeros(static_cast<uint64_t>((x ^ (x >> 63)) | (y ^ (y >> 63)) | (z ^ (z >> 63))));
+            up = zeros < 32 ? zeros - 1 : 31;
+        } else {
+            up = count_leading_zeros(high_magnitude(x) | high_magnitude(y) | high_magnitude(z)) - 1;
+        }
         return normalise(top_word(x, up), top_word(y, up), top_word(z, up), ux, uy, uz);
     }
     template <int F>
@@ -478,7 +481,7 @@ struct FloatSystem {
     {
         const F ax = absolute(x), ay = absolute(y), az = absolute(z);
         const F xy = ax > ay ? ax : ay;
-        return ((xy > az ? xy : az) * leave_relative + leave_least) * epsilon;
+        return (xy > az ? xy : az) * (leave_relative * epsilon) + leave_least * epsilon;
     }
     static constexpr F leave_relative = 2, leave_least = 4;
 
