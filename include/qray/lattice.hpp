@@ -122,12 +122,12 @@ struct LatticeAxis<N> {
         if constexpr (sizeof(F) == 4) {
             // Conversions to 64 bits would link arithmetic in double precision on small cores.
             constexpr F limit = F(uint32_t{1} << 31);
-            if (!(p < limit && p > -limit))
+            if (!(N::absolute(p) < limit))
                 return {whole_index(__builtin_bit_cast(uint32_t, p)), F(0)};
             return split<int32_t>(p);
         } else {
             constexpr F limit = F(int64_t{1} << 62);
-            if (!(p < limit && p > -limit)) // no fraction left at such a distance
+            if (!(N::absolute(p) < limit)) // no fraction left at such a distance
                 return {0, F(0)};
             return split<int64_t>(p);
         }
@@ -138,8 +138,7 @@ private:
     static constexpr Cell<N> split(F p)
     {
         Whole whole = static_cast<Whole>(p);
-        if (static_cast<F>(whole) > p)
-            whole--;
+        whole -= static_cast<F>(whole) > p;
         return {static_cast<uint32_t>(whole), p - static_cast<F>(whole)};
     }
     // Of binary32 beyond 2^31, modulo 2^32.

@@ -15,7 +15,12 @@ QRAY_INLINE constexpr bool intersect_plane(typename N::Moment num, typename N::C
     constexpr typename N::Cosine zero_cosine{};
     if (den > zero_cosine ? !(num > zero_moment) : !(num < zero_moment))
         return false;
-    return N::quotient(num, den, 0, t) && t > N::length_zero && t <= limit;
+    if constexpr (N::is_fixed) {
+        return N::quotient(num, den, 0, t) && t > N::length_zero && t <= limit;
+    } else {
+        t = num / den; // infinite is beyond the limit
+        return t > N::length_zero && t <= limit;
+    }
 }
 
 // Is a crossing of a plane at t before a light at `distance`, and not at it? Measured across the plane, so that a

@@ -35,11 +35,15 @@ struct Sample<N> {
     static constexpr Level one = 1;
     Level r, g, b;
 
-    static constexpr Level clamped(Level c, int) { return c > 0 ? (c < 1 ? c : Level(1)) : Level(0); }
+    static constexpr Level clamped(Level c, int)
+    {
+        const Level v = c > 0 ? c : Level(0);
+        return v < one ? v : one;
+    }
     // As above: the 255-fold of a mean of round decimals may end 32 epsilon below a half.
     static constexpr uint8_t byte(Level v)
     {
-        return static_cast<uint8_t>(v * 255 + (Level(0.5) + 32 * N::epsilon));
+        return static_cast<uint8_t>(static_cast<int32_t>(v * 255 + (Level(0.5) + 32 * N::epsilon)));
     }
 };
 
