@@ -17,16 +17,16 @@ def rows(text):
 
 
 class Parts(unittest.TestCase):
-    # Three products, two sums of 64 bits, one rounding: 3 18 + 2 2 + 3; three long multiplies and two shifts; three times
-    # two, two times four and five.
+    # Three products, two sums of 64 bits, one rounding: 3 18 + 2 2 + 3; three long multiplies and two shifts;
+    # three times two, two times four and five.
     def test_price_of_a_dot_product(self):
         self.assertEqual([floor.price(b, floor.DOT) for b in floor.BOARDS], [61, 5, 19])
 
     def test_floor_of_some_counts(self):
         found = {"ray": 1, "mirrored": 0, "checker": 2, "sphere_test": 4}
         least, products = floor.floor("mps2_an385", found, 2)
-        # Three products, nine others and six words, three at a time, twice for two rays; no product of 64 bits elsewhere
-        # but three in each test of a sphere.
+        # Three products, nine others and six words, three at a time, twice for two rays; no product of 64
+        # bits elsewhere but three in each test of a sphere.
         self.assertEqual(least["textures"], 14)
         self.assertEqual(least["spheres"], 2 * (6 + 3 + 4 / 3))
         self.assertEqual(products, 3 + 6)

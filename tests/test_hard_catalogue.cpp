@@ -1,4 +1,5 @@
-// The hard cases whose answers are exact, in every number system; tests/firmware/test_catalogue.py runs the same on boards.
+// The hard cases whose answers are exact, in every number system; tests/firmware/test_catalogue.py runs the
+// same on boards.
 #include "hard_catalogue.hpp"
 #include "number_helpers.hpp"
 

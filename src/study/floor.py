@@ -21,9 +21,10 @@ SCENE, SIZE = "scenes/floor.nff", "64x48"
 BOARDS = ["microbit", "mps2_an385", "rv32_virt"]
 STEPS = ["camera", "nearest hit", "spheres", "discs", "shading", "textures", "output"]
 
-# Instructions of the parts that operations consist of. `wide` and `square` are 32 x 32 -> 64 bits, `sum` adds such
-# a product to another, `high` is the upper half alone, `round` takes 64 bits to 32; `word` is one of several that
-# are loaded or stored together. On the M0 the products are those of include/qray/base.hpp, the shortest known.
+# Instructions of the parts that operations consist of. `wide` and `square` are 32 x 32 -> 64 bits, `sum` adds
+# such a product to another, `high` is the upper half alone, `round` takes 64 bits to 32; `word` is one of
+# several that are loaded or stored together. On the M0 the products are those of include/qray/base.hpp, the
+# shortest known.
 PARTS = {
     "microbit": {"wide": 18, "square": 11, "sum": 2, "high": 17, "round": 3, "clz": 18, "word": 1 / 3},
     "mps2_an385": {"wide": 1, "square": 1, "sum": 0, "high": 1, "round": 2, "clz": 1, "word": 1 / 3},

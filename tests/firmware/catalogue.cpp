@@ -1,5 +1,6 @@
-// The hard cases whose answers are exact, on a board, in the number system CATALOGUE_NUMBER: says which do not hold, and
-// how many do. Ends with status 1 where one does not. The picture is there because a firmware has one.
+// The hard cases whose answers are exact, on a board, in the number system CATALOGUE_NUMBER: says which do
+// not hold, and how many do. Ends with status 1 where one does not. The picture is there because a firmware
+// has one.
 #include "../hard_catalogue.hpp"
 #include "boards/common/board.hpp"
 

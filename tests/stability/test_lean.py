@@ -25,8 +25,8 @@ class Table(unittest.TestCase):
             self.assertEqual(len(lean.problems(text.replace(f"| {form} |", "| |"))), 1, form)
         self.assertEqual(len(lean.problems("")), 1)
 
-    # 160 against 100 of the textbook, against 110 of what draws the same bytes, and against the 130 of the leanest
-    # whose name has "robust" in it.
+    # 160 against 100 of the textbook, against 110 of what draws the same bytes, and against the 130 of the
+    # leanest whose name has "robust" in it.
     def test_percents(self):
         text = " ".join(made().split())
         self.assertIn("+60 % (M0), +60 % (M3) and +60 % (RV32) beside the textbook's", text)

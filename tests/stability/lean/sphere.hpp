@@ -1,5 +1,6 @@
-// The sphere of a textbook in place of include/qray/sphere.hpp: b^2 - c, a threshold on t, and a hit point that is
-// whatever o + t d comes to. What does not depend on the ray is stored. lean.py beside this folder builds firmware with it.
+// The sphere of a textbook in place of include/qray/sphere.hpp: b^2 - c, a threshold on t, and a hit point
+// that is whatever o + t d comes to. What does not depend on the ray is stored. lean.py beside this folder
+// builds firmware with it.
 #pragma once
 
 #include "narrow.hpp"
@@ -28,8 +29,10 @@ struct Sphere {
     static constexpr int32_t fine = 0;
 
     // From what a compiled scene gives sphere.hpp's.
-    constexpr Sphere(Point<N> c, typename N::Length r, typename N::Scale inverse, int32_t up, Tag name, Rounded<N>)
-        : centre(c), radius(N::coarse(r, up)), reach(N::coarse_above(r, up)), square(r * r), inverse_radius(inverse), tag(name)
+    constexpr Sphere(Point<N> c, typename N::Length r, typename N::Scale inverse, int32_t up, Tag name,
+                     Rounded<N>)
+        : centre(c), radius(N::coarse(r, up)), reach(N::coarse_above(r, up)), square(r * r),
+          inverse_radius(inverse), tag(name)
     {
         if constexpr (N::is_fixed) {
             square.raw >>= 2 * up;
@@ -46,8 +49,8 @@ QRAY_INLINE constexpr bool surely_missed(const Sphere<N>& s, const NarrowRay<N>&
 
 // t of both meetings, and the centre as seen from the origin.
 template <class N>
-QRAY_INLINE constexpr bool lean_roots(const Sphere<N>& s, const Ray<N>& ray, Point<N>& v, typename N::Length& near,
-                                      typename N::Length& far)
+QRAY_INLINE constexpr bool lean_roots(const Sphere<N>& s, const Ray<N>& ray, Point<N>& v,
+                                      typename N::Length& near, typename N::Length& far)
 {
     if constexpr (lean_knows_surface)
         if (leaves(ray, s.tag) == Leaves::outward)
@@ -92,8 +95,8 @@ QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Ray<N>& ray, typen
 }
 
 template <class N>
-QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Local<N>& local, const Direction<N>& d, Point<N>& point,
-                                      Direction<N>& n)
+QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Local<N>& local, const Direction<N>& d,
+                                      Point<N>& point, Direction<N>& n)
 {
     const Point<N> w = local.near + along<N>(local.along, d);
     n = {N::ratio(w.x, s.inverse_radius), N::ratio(w.y, s.inverse_radius), N::ratio(w.z, s.inverse_radius)};
