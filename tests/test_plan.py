@@ -85,9 +85,30 @@ class Counts(unittest.TestCase):
             self.assertEqual(c["ray"], samples * 32 * 24)
             self.assertEqual(c["sphere_test"], 3 * samples * 32 * 24)
             self.assertEqual(c["test"], c["sphere_test"])
+            self.assertEqual(c["sphere_several"], c["sphere_test"])
+            self.assertEqual(c["sphere_many"], 0)
+            self.assertEqual(c["sphere_ahead"], c["sphere_test"])
             self.assertEqual(c["sphere_seen"], c["hit"])
             for name in ("shadow_ray", "disc_test", "mirrored", "refracted", "checker"):
                 self.assertEqual(c[name], 0, name)
+
+    # One ray along the axis of ten balls, five of them behind it, and of five aside.
+    def test_how_far_a_test_goes(self):
+        os.makedirs("build/study", exist_ok=True)
+        path = "build/study/test_plan.nff"
+        with open(path, "w") as file:
+            file.write("v from 0 0 0 at 0 0 -1 up 0 1 0 angle 1 hither 1 resolution 1 1\nshadows off\n")
+            file.writelines(f"s 0 0 {3 * i} 1\n" for i in range(-5, 6) if i)
+            file.writelines(f"s 5 0 {-3 * i} 1\n" for i in range(1, 6))
+            file.write("disc 0 0 -20 0 0 1 2\ndisc 0 0 20 0 0 1 2\n")
+            file.write("p 4 -1 -1 -30 1 -1 -30 1 1 -30 -1 1 -30\n")
+        c = self.counts(path, "1x1")
+        for name, count in (("ray", 1), ("sphere_test", 15), ("sphere_many", 15), ("sphere_ahead", 10),
+                            ("sphere_line", 10), ("sphere_met", 5), ("sphere_seen", 1), ("disc_test", 2),
+                            ("disc_several", 2), ("disc_many", 0), ("disc_ahead", 1), ("disc_met", 0),
+                            ("polygon_several", 0), ("polygon_near", 1), ("polygon_corner", 0), ("hit", 1),
+                            ("kinds", 3), ("balls", 15), ("lamp", 0), ("effect_shadow", 0)):
+            self.assertEqual(c[name], count, name)
 
     # The same rays as the command counts.
     def test_rays(self):

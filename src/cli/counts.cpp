@@ -17,64 +17,108 @@ struct Counting : Double {};
 using Shot = Ray<Counting>;
 
 OperationCounts counts;
+Effects effects; // of the scene that is counted
 
 void add(Operation o, double n = 1) { counts[o] += n; }
 
 double product(const Vec<double>& a, const Vec<double>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-// Where a ball lies to a ray: whether it is ahead at all, and whether the ray's line enters it before
-// `limit`.
+// Where a ball lies to a ray: not all behind it; entered by its whole line; and not all beyond `limit`.
 struct Place {
-    bool ahead, met;
+    bool ahead, line, within;
+    bool near() const { return ahead && line; }
 };
 Place place(const Vec<double>& centre, double radius, const Shot& ray, double limit)
 {
     const Vec<double> v = centre - ray.origin;
     const double along = product(v, ray.direction);
-    const bool ahead = along > -radius;
-    return {ahead, ahead && along - radius <= limit && product(v, v) - along * along <= radius * radius};
+    return {along > -radius, product(v, v) - along * along <= radius * radius, along - radius <= limit};
 }
 
-// A plane is ahead where it lies between the ray's origin and `limit`.
-bool plane_ahead(const Vec<double>& point, const Vec<double>& normal, const Shot& ray, double limit)
+// Where the ray, not its line, meets a plane; 0 where it does not.
+double plane_distance(const Vec<double>& point, const Vec<double>& normal, const Shot& ray)
 {
-    const double towards = product(ray.direction, normal);
-    const double t = product(point - ray.origin, normal) / towards;
-    return t > 0 && t <= limit;
+    const double t = product(point - ray.origin, normal) / product(ray.direction, normal);
+    return t > 0 ? t : 0;
+}
+bool within(double t, double limit) { return t > 0 && t <= limit; }
+
+// Does the ray's line meet the cone's unbounded surface? See cone.hpp.
+bool has_roots(const Cone<Counting>& s, const Shot& ray)
+{
+    const Vec<double> v = s.middle - ray.origin;
+    const double along = product(v, ray.direction);
+    const Vec<double> o = Vec<double>{ray.direction.x * along, ray.direction.y * along, ray.direction.z * along} - v;
+    const double ox = product(o, s.e1), oy = product(o, s.e2), rho = s.rho0 + s.sine * product(o, s.axis);
+    const double dx = product(ray.direction, s.e1), dy = product(ray.direction, s.e2);
+    const double ds = s.sine * product(ray.direction, s.axis), c = s.cosine * s.cosine;
+    const double a = c * (dx * dx + dy * dy) - ds * ds, b = c * (ox * dx + oy * dy) - rho * ds;
+    return b * b - a * (c * (ox * ox + oy * oy) - rho * rho) >= 0;
 }
 
-template <class S>
-void count_test(const S& shape, const Vec<double>* vertices, const Shot& ray, double limit)
+// The operations that follow `test`, and `ahead`, in their order.
+void add_test(Operation test, uint32_t count)
 {
+    const int i = static_cast<int>(test);
     add(Operation::test);
+    add(test);
+    add(static_cast<Operation>(i + 1), count > 1);
+    add(static_cast<Operation>(i + 2), count > 8);
+}
+void add_place(Operation ahead, const Place& at)
+{
+    add(ahead, at.ahead);
+    add(static_cast<Operation>(static_cast<int>(ahead) + 1), at.line);
+}
+
+template <Effects E, class S>
+void count_test(const Scene<Counting, E>& scene, const S& shape, const Shot& ray, double limit)
+{
+    const Vec<double>* vertices = scene.vertices.data;
+    const bool own = ray.from == shape.tag;
     if constexpr (requires { shape.half; }) {
         const Place at = place(shape.middle, shape.bound, ray, limit);
-        add(Operation::cone_test);
-        add(Operation::cone_near, at.ahead);
-        add(Operation::cone_met, at.met);
+        const bool near = at.near() && at.within && !(own && ray.outward);
+        add_test(Operation::cone_test, scene.cones.count);
+        add_place(Operation::cone_ahead, at);
+        add(Operation::cone_near, near);
+        add(Operation::cone_met, near && has_roots(shape, ray));
     } else if constexpr (requires { shape.inverse_radius; }) {
         const Place at = place(shape.centre, shape.radius, ray, limit);
-        add(Operation::sphere_test);
-        add(Operation::sphere_ahead, at.ahead);
-        add(Operation::sphere_met, at.met && !(ray.from == shape.tag && ray.outward));
+        add_test(Operation::sphere_test, scene.spheres.count);
+        add_place(Operation::sphere_ahead, at);
+        add(Operation::sphere_met, at.near() && !(own && ray.outward));
     } else if constexpr (requires { shape.radius; }) {
-        add(Operation::disc_test);
-        add(Operation::disc_ahead,
-            !(ray.from == shape.tag) && plane_ahead(shape.centre, shape.normal, ray, limit));
+        const double t = plane_distance(shape.centre, shape.normal, ray);
+        add_test(Operation::disc_test, scene.discs.count);
+        add(Operation::disc_ahead, t > 0);
+        add(Operation::disc_met, !own && within(t, limit));
     } else {
-        const bool ahead = !(ray.from == shape.tag)
-            && plane_ahead(vertices[shape.first], shape.normal, ray, limit);
-        const bool met = ahead && place(shape.middle, shape.bound, ray, limit).met;
+        const Place at = place(shape.middle, shape.bound, ray, limit);
+        const bool near = at.near() && !own;
+        const bool met = near && within(plane_distance(vertices[shape.first], shape.normal, ray), limit);
         if constexpr (requires { shape.count; }) {
-            add(Operation::polygon_test);
-            add(Operation::polygon_ahead, ahead);
+            add_test(Operation::polygon_test, scene.polygons.count);
+            add_place(Operation::polygon_ahead, at);
+            add(Operation::polygon_near, near);
             add(Operation::polygon_corner, met ? shape.count : 0);
         } else {
-            add(Operation::patch_test);
-            add(Operation::patch_ahead, ahead);
+            add_test(Operation::patch_test, scene.patches.count);
+            add_place(Operation::patch_ahead, at);
+            add(Operation::patch_near, near);
             add(Operation::patch_met, met);
         }
     }
+}
+
+// That a ray meets a shape, at its corners.
+template <class S>
+void count_found(const S& shape)
+{
+    if constexpr (requires { shape.count; })
+        add(Operation::polygon_found, shape.count);
+    else if constexpr (requires { shape.second; })
+        add(Operation::patch_found);
 }
 
 constexpr Operation seen[] = {Operation::sphere_seen, Operation::disc_seen, Operation::cone_seen,
@@ -100,11 +144,14 @@ bool nearest(const Scene<Counting, E>& scene, const Shot& ray, Hit<Counting>& hi
     add(Operation::ray);
     double limit = Counting::length_max;
     for_each_shape(scene, [&](const auto& shape, Kind, uint32_t) {
-        count_test(shape, scene.vertices.data, ray, limit);
+        count_test(scene, shape, ray, limit);
         double t = 0;
         Local<Counting> local{};
-        if (intersect_in(scene, shape, ray, limit, t, local))
+        if (intersect_in(scene, shape, ray, limit, t, local)) {
             limit = std::min(limit, t);
+            add(Operation::found);
+            count_found(shape);
+        }
         return false;
     });
     return qray::nearest<Counting, E>(scene, ray, hit);
@@ -113,11 +160,15 @@ bool nearest(const Scene<Counting, E>& scene, const Shot& ray, Hit<Counting>& hi
 template <Effects E>
 double light_through(const Scene<Counting, E>& scene, const Shot& ray, double distance)
 {
+    add(Operation::veiled_ray, effects.see_through);
     const double through = qray::light_through<Counting, E>(scene, ray, distance);
     for_each_shape(scene, [&](const auto& shape, Kind, uint32_t) {
-        count_test(shape, scene.vertices.data, ray, distance);
-        return through == 0 && crossings_in(scene, shape, ray, distance) != 0
-            && scene.transmits[shape.tag.material()].amount == 0;
+        count_test(scene, shape, ray, distance);
+        add(Operation::veiled_test, effects.see_through);
+        if (crossings_in(scene, shape, ray, distance) == 0)
+            return false;
+        count_found(shape);
+        return through == 0 && scene.transmits[shape.tag.material()].amount == 0;
     });
     return through;
 }
@@ -127,6 +178,7 @@ Rgb<Counting> local_light(const Scene<Counting, E>& scene, const Seen<Counting>&
 {
     add(Operation::hit);
     add(seen[static_cast<int>(at.kind)]);
+    add(Operation::glass, scene.transmits[at.material].amount > 0);
     const TextureRef texture = scene.textures[at.material];
     if (texture.kind != TextureKind::none)
         add(textures[static_cast<int>(texture.kind)]);
@@ -142,12 +194,14 @@ Rgb<Counting> local_light(const Scene<Counting, E>& scene, const Seen<Counting>&
             add(Operation::shine_fraction, h.shine.fraction > 0);
         }
     };
+    add(Operation::lamp, scene.lights.count);
     for (uint32_t i = 0; i < scene.lights.count; i++) {
         Vec<double> l{};
         double distance = 0;
         if (towards(scene.lights[i], at.surface.point, l, distance))
             lamp(l);
     }
+    add(Operation::sun_lamp, scene.suns.count);
     for (uint32_t i = 0; i < scene.suns.count; i++)
         lamp(scene.suns[i].from);
     return qray::local_light<Counting, E>(scene, at, count);
@@ -171,6 +225,7 @@ OperationCounts count_operations(const scene::Description& description, const sc
     scene::Error error;
     if (!scene::Builder<Counting>(description, settings, storage).build(error))
         return counts;
+    effects = storage.effects;
     const auto view = storage.template view<without_tree()>();
     double rows = 0;
     for (uint32_t j = stride / 2; j < storage.camera.height; j += stride, rows++)

@@ -8,24 +8,36 @@
 
 namespace qray::cli {
 
+// A `veiled` ray is one to a light in a scene where surfaces may let light through. Of a shape kind: `test`, of
+// each of its shapes by each ray; `several` and `many`, of those the ones in a list of more than one and of more
+// than eight, which compilers unroll or not; `ahead`, its bounding ball is not all behind the ray; `line`, the
+// ray's whole line enters that ball; `near`, both; `met`, a surface that is unbounded otherwise; `corner` and
+// `found`, corners of those whose plane is met, and of those that are; `seen`, the hit that is shaded.
 enum class Operation : uint8_t {
-    pixel, sample, ray, shadow_ray, test,
-    sphere_test, sphere_ahead, sphere_met, sphere_seen,
-    disc_test, disc_ahead, disc_seen,
-    cone_test, cone_near, cone_met, cone_seen,
-    polygon_test, polygon_ahead, polygon_corner, polygon_seen,
-    patch_test, patch_ahead, patch_met, patch_seen,
-    hit, lit, shine, shine_square, shine_fraction, mirrored, refracted,
+    pixel, sample, ray, shadow_ray, veiled_ray, test, veiled_test, found,
+    sphere_test, sphere_several, sphere_many, sphere_ahead, sphere_line, sphere_met, sphere_seen,
+    disc_test, disc_several, disc_many, disc_ahead, disc_met, disc_seen,
+    cone_test, cone_several, cone_many, cone_ahead, cone_line, cone_near, cone_met, cone_seen,
+    polygon_test, polygon_several, polygon_many, polygon_ahead, polygon_line, polygon_near, polygon_corner,
+    polygon_found, polygon_seen,
+    patch_test, patch_several, patch_many, patch_ahead, patch_line, patch_near, patch_met, patch_found,
+    patch_seen,
+    hit, lamp, sun_lamp, lit, shine, shine_square, shine_fraction, mirrored, refracted, glass,
     checker, stripes, gradient, rings, noise, marble, wood, brick,
 };
 constexpr const char* operation_names[] = {
-    "pixel", "sample", "ray", "shadow_ray", "test",
-    "sphere_test", "sphere_ahead", "sphere_met", "sphere_seen",
-    "disc_test", "disc_ahead", "disc_seen",
-    "cone_test", "cone_near", "cone_met", "cone_seen",
-    "polygon_test", "polygon_ahead", "polygon_corner", "polygon_seen",
-    "patch_test", "patch_ahead", "patch_met", "patch_seen",
-    "hit", "lit", "shine", "shine_square", "shine_fraction", "mirrored", "refracted",
+    "pixel", "sample", "ray", "shadow_ray", "veiled_ray", "test", "veiled_test", "found",
+    "sphere_test", "sphere_several", "sphere_many", "sphere_ahead", "sphere_line", "sphere_met",
+    "sphere_seen",
+    "disc_test", "disc_several", "disc_many", "disc_ahead", "disc_met", "disc_seen",
+    "cone_test", "cone_several", "cone_many", "cone_ahead", "cone_line", "cone_near", "cone_met",
+    "cone_seen",
+    "polygon_test", "polygon_several", "polygon_many", "polygon_ahead", "polygon_line", "polygon_near",
+    "polygon_corner", "polygon_found", "polygon_seen",
+    "patch_test", "patch_several", "patch_many", "patch_ahead", "patch_line", "patch_near", "patch_met",
+    "patch_found", "patch_seen",
+    "hit", "lamp", "sun_lamp", "lit", "shine", "shine_square", "shine_fraction", "mirrored", "refracted",
+    "glass",
     "checker", "stripes", "gradient", "rings", "noise", "marble", "wood", "brick",
 };
 constexpr int operation_count = sizeof operation_names / sizeof *operation_names;

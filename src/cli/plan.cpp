@@ -22,7 +22,8 @@ namespace {
 using scene::Settings;
 using study::Calibration;
 
-static_assert(sizeof(Calibration::cost) / sizeof(double) == operation_count, "make calibrate");
+// Else calibration.hpp is of other operations; it is made with this program, which must compile with either.
+constexpr int costs_known = sizeof(Calibration::cost) / sizeof(double);
 
 // Pictures are judged by some of their rows: enough to hold this many pixels, and not fewer than these rows.
 constexpr uint32_t wanted_pixels = 4000, wanted_rows = 8, most_rows = 64;
@@ -79,14 +80,17 @@ int unknown_board(const char* board)
     return bad_options("no board '%s' is calibrated; there are %s", scene::ShownName(board).text, names);
 }
 
-// What a sample's time is multiplied by; the counts of adaptive sampling are taken as they are.
-double instructions(const Calibration& costs, const OperationCounts& counts, const Settings& s)
+double instructions(const Calibration& costs, const OperationCounts& counts, const Effects& effects,
+                    const Settings& s)
 {
     double sum = 0;
-    for (int i = 0; i < operation_count; i++) {
-        const bool once = i == static_cast<int>(Operation::pixel);
-        sum += costs.cost[i] * counts.of[i] * (once || s.levels != 0 ? 1 : s.grid * s.grid);
-    }
+    for (int i = 0; i < std::min(operation_count, costs_known); i++)
+        sum += costs.cost[i] * counts.of[i];
+    int called_for = 0;
+    for (const scene::EffectName& e : scene::effect_names)
+        called_for += effects.*e.effect && e.effect != &Effects::tree && e.effect != &Effects::grid
+            && e.effect != &Effects::adaptive;
+    sum *= costs.plain + costs.effect * called_for;
     return sum * (s.levels != 0 ? costs.adaptive : s.grid != 1 ? costs.grid : 1);
 }
 
@@ -101,11 +105,11 @@ double bytes(const double* table, const Effects& effects)
     return sum;
 }
 
-double flash(const Calibration& costs, const Effects& effects, const scene::Description& d)
+double flash(const Calibration& costs, const Built& built)
 {
-    // The tables of a scene of usual size are in that already.
-    const double more = d.object_count > 16 ? d.object_count - 16 : 0;
-    return bytes(costs.flash_bytes, effects) + 48 * more + 12.0 * d.vertex_count;
+    return bytes(costs.flash_bytes, built.effects) + built.table_bytes
+        + costs.kind_bytes * (built.effects.shapes() - 1)
+        + costs.ball_bytes * (built.balls <= study::few_balls ? built.balls : 0);
 }
 
 double ram(const Calibration& costs, const Effects& effects, const Settings& s, uint32_t width)
@@ -167,9 +171,9 @@ size_t predict(const Options& options, const Rows& rows)
             s.levels = sampling.levels;
             s.threshold = sampling.threshold;
             s.depth = depth;
-            Settings single = s;
-            single.grid = 1;
-            const OperationCounts counts = count_operations(description(), single, rows.stride);
+            const uint32_t fewer = std::max(rows.height / wanted_rows, 1u);
+            const OperationCounts counts =
+                count_operations(description(), s, std::clamp(rows.stride * s.grid, 1u, fewer));
             for (size_t n = 0; n < sizeof renderers / sizeof *renderers; n++) {
                 const Calibration* costs = find_costs(options.board, number_names[n]);
                 Built built{};
@@ -179,8 +183,8 @@ size_t predict(const Options& options, const Rows& rows)
                 if (depth != depths[0] && !built.effects.spawns() && depth != 1)
                     continue;
                 Candidate& c = candidates[found];
-                c = {costs, static_cast<int>(n), s, instructions(*costs, counts, s), 0,
-                     flash(*costs, built.effects, description()),
+                c = {costs, static_cast<int>(n), s, instructions(*costs, counts, built.effects, s), 0,
+                     flash(*costs, built),
                      ram(*costs, built.effects, s, built.width), {}};
                 c.seconds = options.mhz > 0 ? c.instructions * costs->cycles / (options.mhz * 1e6) : 0;
                 if (c.flash > costs->flash || c.ram > costs->ram)
@@ -316,6 +320,11 @@ int plan_main(int argc, char** argv)
     const int status = read_options(Command::plan, argc, argv, options);
     if (status != go_on)
         return status;
+    if (costs_known != operation_count) {
+        fputs("qray: the operations that costs are known of have changed; make calibrate measures them again\n",
+              stderr);
+        return 1;
+    }
     if (options.board == nullptr || !known_board(options.board))
         return unknown_board(options.board);
     if (options.seconds > 0 && !(options.mhz > 0))

@@ -12,6 +12,8 @@ struct Built {
     uint32_t width, height;
     Effects effects;
     uint32_t vanished; // objects smaller than the number system's resolution
+    uint32_t balls;
+    uint32_t table_bytes; // of the scene when it is compiled
     const char* kernel;
 };
 
@@ -28,6 +30,39 @@ extern const Renderer q16_renderer, q32_renderer, float_renderer, double_rendere
 inline const Renderer* const renderers[] = {&q16_renderer, &q32_renderer, &float_renderer, &double_renderer};
 
 template <class N>
+uint32_t table_bytes(const scene::Storage<N>& s)
+{
+    const Effects& e = s.effects;
+    size_t sum = 0;
+    const auto add = [&sum](bool present, const auto& table) {
+        sum += present ? table.count * sizeof *table.data : 0;
+    };
+    add(e.sphere, s.spheres);
+    add(e.disc, s.discs);
+    add(e.cone, s.cones);
+    add(e.polygon, s.polygons);
+    add(e.patch, s.patches);
+    add(e.polygon || e.patch, s.vertices);
+    add(e.patch, s.normals);
+    add(true, s.mattes);
+    add(e.highlight, s.highlights);
+    add(e.mirror, s.mirrors);
+    add(e.transmit || e.see_through, s.transmits);
+    add(e.texture(), s.textures);
+    add(e.checker, s.checkers);
+    add(e.stripes, s.stripes);
+    add(e.gradient, s.gradients);
+    add(e.rings, s.rings);
+    add(e.noise, s.noises);
+    add(e.marble, s.marbles);
+    add(e.wood, s.woods);
+    add(e.brick, s.bricks);
+    add(e.light, s.lights);
+    add(e.sun, s.suns);
+    return static_cast<uint32_t>(sum);
+}
+
+template <class N>
 struct RendererOf {
     static inline scene::Storage<N> storage;
 
@@ -37,7 +72,7 @@ struct RendererOf {
         if (!scene::Builder<N>(description, settings, storage).build(error))
             return false;
         built = {storage.camera.width, storage.camera.height, storage.effects, storage.vanished,
-                 Kernel<N>::name(storage)};
+                 storage.spheres.count, table_bytes(storage), Kernel<N>::name(storage)};
         return true;
     }
     static void rows(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts)

@@ -3,45 +3,56 @@ from traces of small pictures. Writes src/study/calibration.hpp, from which `qra
 
 The trace says how many instructions each step of the tracer took (cycles.py), and the desktop how often each
 operation was asked for; the costs of a step's operations are those not below 0 that leave the least squares
-of differences, each as a share of its whole picture, over all scenes."""
+of differences, each as a share of its whole picture, over all scenes: mixtures.py's and some of scenes/."""
 
-import glob
 import os
 import re
-import subprocess
 import sys
 
 sys.dont_write_bytecode = True
 import cycles  # noqa: E402
-import ladder  # noqa: E402
+import mixtures  # noqa: E402
 import runs  # noqa: E402
+from settings import STUDIED as BOARDS  # noqa: E402
 
 OUTPUT = "src/study/calibration.hpp"
 OPERATIONS = "build/study/operations"
-BOARDS = ["microbit", "mps2_an385", "mps2_an386", "rv32_virt"]
 # The slower the arithmetic, the smaller the picture that is traced.
 SIZES = {"float": "8x6", "double": "6x4"}
 SIZE = "12x9"
-# A number system whose arithmetic is all the compiler's library is the same everywhere: fewer scenes do.
-SCENES = ["floor", "showcase", "glass", "castle", "patches", "materials", "polygons", "phong",
-          "textures", "lights"]
-FEW = SCENES[:5]
+# Beside mixtures.py's.
+SCENES = ["floor", "showcase", "glass", "castle", "patches", "materials", "polygons", "lights"]
+# Double is float's library with longer numbers: what it costs is what soft float does, times a factor for each
+# step that these scenes tell.
+DOUBLE = "double"
+DOUBLE_SCENES = ["floor", "showcase", "market", "attic"]
+SOFT = {"mps2_an386": "mps2_an385"}
 # A program with several samples is compiled into other code: its instructions by those that are predicted,
-# from these.
-SAMPLED = ["floor", "showcase", "castle"]
+# and the bytes that it takes more, from these.
+SAMPLED = ["floor", "showcase", "market"]
 SAMPLINGS = {"grid": ("4", {"SAMPLES": 4}), "adaptive": ("a2,0.0625", {"ADAPTIVE": "2,0.0625"})}
 
-# The operations that a step's instructions are shared out to.
+FEW_BALLS = 8  # that compilers are asked to unroll a loop over: QRAY_UNROLL
+LISTED = ["several", "many"]
+
+
+def of(kind, *what):
+    return [f"{kind}_{w}" for w in what]
+
+
+# The operations that a step's instructions are shared out to. What a step of shapes takes for each test differs
+# with the length of their list, as compilers unroll short ones, and so does what finding the nearest does.
 STEPS = {
     "camera": ["sample", "pixel"], "output": ["sample", "pixel"],
-    "spheres": ["sphere_test", "sphere_ahead", "sphere_met", "sphere_seen"],
-    "discs": ["disc_test", "disc_ahead", "disc_seen"],
-    "cones": ["cone_test", "cone_near", "cone_met", "cone_seen"],
-    "polygons": ["polygon_test", "polygon_ahead", "polygon_corner", "polygon_seen"],
-    "patches": ["patch_test", "patch_ahead", "patch_met", "patch_seen"],
-    "nearest hit": ["ray", "shadow_ray", "test"],
-    "shading": ["ray", "shadow_ray", "hit", "lit", "shine", "shine_square", "shine_fraction", "mirrored",
-                "refracted"],
+    "spheres": of("sphere", "test", *LISTED, "ahead", "line", "met", "seen"),
+    "discs": of("disc", "test", *LISTED, "ahead", "met", "seen"),
+    "cones": of("cone", "test", *LISTED, "ahead", "line", "near", "met", "seen"),
+    "polygons": of("polygon", "test", *LISTED, "ahead", "line", "near", "corner", "found", "seen"),
+    "patches": of("patch", "test", *LISTED, "ahead", "line", "near", "met", "found", "seen"),
+    "nearest hit": ["ray", "shadow_ray", "veiled_ray", "test", "veiled_test", "found"]
+    + [f"{kind}_{w}" for kind in ("sphere", "disc", "cone", "polygon", "patch") for w in LISTED],
+    "shading": ["ray", "shadow_ray", "hit", "lamp", "sun_lamp", "lit", "shine", "shine_square", "shine_fraction",
+                "mirrored", "refracted", "glass"],
     **{texture: [texture] for texture in cycles.TEXTURES},
 }
 
@@ -55,13 +66,17 @@ def least_squares(rows, wanted, ridge=1e-5):
     x = [0.0] * columns
     left = list(wanted)
     for _ in range(3000):
+        most = 0
         for k in range(columns):
             square = sum(r[k] * r[k] for r in a) + ridge
             step = (sum(r[k] * v for r, v in zip(a, left)) - ridge * x[k]) / square
             step = max(step, -x[k])
             if step:
                 x[k] += step
+                most = max(most, abs(step))
                 left = [v - step * r[k] for r, v in zip(a, left)]
+        if most < 1e-9:
+            break
     return [v / s for v, s in zip(x, scale)]
 
 
@@ -88,85 +103,168 @@ def memory(board):
     return [int(found[k].rstrip("KM")) * unit.get(found[k][-1], 1) for k in ("flash", "ram")]
 
 
+def rows_of(measured, counted, parts):
+    return [[counted[scene][p] / m["instructions"] for p in parts] for scene, m in measured.items()]
+
+
+def shares_of(measured, step):
+    return [m["steps"].get(step, 0) / m["instructions"] for m in measured.values()]
+
+
 def fit(measured, counted):
-    """{operation: instructions} of one board and number system."""
-    cost = {}
-    for step, parts in STEPS.items():
-        rows, wanted = [], []
-        for scene, m in measured.items():
-            rows.append([counted[scene][p] / m["instructions"] for p in parts])
-            wanted.append(m["steps"].get(step, 0) / m["instructions"])
-        for part, value in zip(parts, least_squares(rows, wanted)):
-            cost[part] = cost.get(part, 0) + value
-    return cost
+    """{step: {operation: instructions}} of one board and number system."""
+    return {step: dict(zip(parts, least_squares(rows_of(measured, counted, parts), shares_of(measured, step))))
+            for step, parts in STEPS.items()}
 
 
-def predict(cost, counts):
-    return sum(cost.get(k, 0) * counts[k] for k in counts if not k.startswith("effect_"))
+def scaled(cost, measured, counted):
+    """As fit(), where the operations of a step are known but for a factor."""
+    out = {}
+    for step, known in cost.items():
+        rows = [[sum(known[p] * share for p, share in zip(known, row))]
+                for row in rows_of(measured, counted, known)]
+        # Of a step that none of these takes, as of all that they take.
+        factor = least_squares(rows, shares_of(measured, step))[0] if any(r[0] for r in rows) else None
+        out[step] = (known, factor)
+    common = [f for _, f in out.values() if f]
+    common = sum(common) / len(common)
+    return {step: {p: v * (factor or common) for p, v in known.items()}
+            for step, (known, factor) in out.items()}
 
 
-def fit_effects(measured, counted, what, other):
-    """Bytes of flash or of stack: a constant, and what each of these effects adds; `other` is what one that no
-    scene here calls for (sampling) is taken to add."""
-    effects = [k for k in next(iter(counted.values())) if k.startswith("effect_") and k != "effect_tree"]
-    rows = [[1.0] + [counted[s][e] for e in effects] for s in measured]
-    bytes_of = [1000 * v for v in least_squares(rows, [m[what] / 1000 for m in measured.values()], 1e-3)]
-    return [other if not any(r[k] for r in rows) else v for k, v in enumerate(bytes_of)], effects
+def effects_of(counts):
+    return [k for k in counts if k.startswith("effect_") and k != "effect_tree"]
 
 
-def main():
-    scenes = [f"scenes/{name}.nff" for name in SCENES]
-    steps = ladder.write("build/study/ladder")
-    scenes += [path for name, path, _ in steps if name in ("shadow", "glass")]
-    counted_at = {(scene, size): operations(scene, size)
-                  for scene in scenes for size in {SIZE, *SIZES.values()}}
-    plan = {}
-    for number in runs.numbers():
-        for board in BOARDS:
-            for scene in scenes:
-                if number != "double" or os.path.basename(scene).removesuffix(".nff") in FEW:
-                    plan[board, number, scene] = runs.Run(board, scene, number,
-                                                                   size_of(board, number), profile=True)
-    sampled = {(board, number, name, kind): runs.Run(board, f"scenes/{name}.nff", number,
-                                                     size_of(board, number), **o)
-               for number in runs.numbers() if number != "double" for board in BOARDS for name in SAMPLED
-               for kind, (_, o) in SAMPLINGS.items()}
-    runs.perform(list(plan.values()) + list(sampled.values()))
-    lines, shares = [], []
-    for board in BOARDS:
+class Costs:
+    """Of one board and number system. Beside what operations cost, all of them cost more in a scene that calls
+    for more effects, as compilers then have fewer registers for each."""
+
+    def __init__(self, steps, measured, counted):
+        self.of = {}
+        for parts in steps.values():
+            for part, value in parts.items():
+                self.of[part] = self.of.get(part, 0) + value
+        self.plain, self.effect = 1, 0
+        effects = [sum(counted[s][e] for e in effects_of(counted[s])) for s in measured]
+        known = [m["instructions"] / self.predict(counted[s]) for s, m in measured.items()]
+        x, y = (sum(v) / len(v) for v in (effects, known))
+        self.effect = (sum((a - x) * (b - y) for a, b in zip(effects, known))
+                       / sum((a - x) ** 2 for a in effects))
+        self.plain = y - self.effect * x
+
+    def predict(self, counts):
+        effects = sum(counts[e] for e in effects_of(counts)) if self.effect else 0
+        return (self.plain + self.effect * effects) * sum(v * counts[k] for k, v in self.of.items())
+
+
+def fit_bytes(measured, counted, what, number):
+    """Bytes of flash or of stack: of every program, of each effect, and of flash, of a kind of shapes beyond the
+    first and of a ball where they are few, for which compilers may write code of its own. The tables that
+    a scene is in come to that."""
+    rows, wanted = [], []
+    for scene, m in measured.items():
+        c = counted[scene]
+        row, tables = [1.0] + [c[e] for e in effects_of(c)], 0
+        if what == "flash":
+            tables = c[f"tables_{number}"]
+            row += [c["kinds"] - 1, c["balls"] if c["balls"] <= FEW_BALLS else 0]
+        rows.append([v / m[what] for v in row])
+        wanted.append((m[what] - tables) / m[what])
+    return least_squares(rows, wanted, 1e-4)
+
+
+def median(values, otherwise):
+    return sorted(values)[len(values) // 2] if values else otherwise
+
+
+class Calibration:
+    """All runs, and what they tell."""
+
+    def __init__(self):
+        self.scenes = {name: f"scenes/{name}.nff" for name in SCENES}
+        self.scenes.update(mixtures.write("build/study/mixtures"))
+        self.counts, self.traced, self.sampled, self.costs = {}, {}, {}, {}
         for number in runs.numbers():
-            measured = {s: plan[board, number, s].result for s in scenes
-                        if (board, number, s) in plan and "refused" not in plan[board, number, s].result}
-            if not measured:
+            for board in BOARDS:
+                size = size_of(board, number)
+                for name in DOUBLE_SCENES if number == DOUBLE else self.scenes:
+                    self.traced[board, number, name] = runs.Run(board, self.scenes[name], number, size,
+                                                                profile=True)
+                for name in SAMPLED if number != DOUBLE else ():
+                    for kind, (_, options) in SAMPLINGS.items():
+                        self.sampled[board, number, name, kind] = runs.Run(board, self.scenes[name], number,
+                                                                           size, **options)
+
+    def perform(self):
+        runs.perform(list(self.traced.values()) + list(self.sampled.values()))
+
+    def counted(self, name, size, samples="1"):
+        key = name, size, samples
+        if key not in self.counts:
+            self.counts[key] = operations(self.scenes[name], size, samples)
+        return self.counts[key]
+
+    def measured(self, board, number):
+        """{scene: what was measured}, {scene: what was counted}"""
+        found = {n: run.result for (b, s, n), run in self.traced.items()
+                 if (b, s) == (board, number) and "refused" not in run.result}
+        return found, {n: self.counted(n, size_of(board, number)) for n in found}
+
+    def fit(self, board, number):
+        measured, counted = self.measured(board, number)
+        if number == DOUBLE:
+            soft = self.measured(SOFT.get(board, board), "float")
+            steps = scaled(fit(*soft), measured, counted)
+        else:
+            steps = fit(measured, counted)
+        self.costs[board, number] = Costs(steps, measured, counted)
+
+    def several(self, board, number, kind):
+        """Instructions by those predicted, flash and stack beyond those of one sample."""
+        ratio, flash, stack = [], [], []
+        for name in SAMPLED:
+            run = self.sampled.get((board, number, name, kind))
+            if run is None or "refused" in run.result:
                 continue
-            counted = {s: counted_at[s, size_of(board, number)] for s in scenes}
-            cost = fit(measured, counted)
-            for scene, m in measured.items():
-                off = predict(cost, counted[scene]) / m["instructions"] - 1
-                shares.append((abs(off), board, number, scene))
-            flash, effects = fit_effects(measured, counted, "flash", 600)
-            stack, _ = fit_effects(measured, counted, "stack_bound", 60)
-            per = (sum(m["cycles"] for m in measured.values())
-                   / sum(m["instructions"] for m in measured.values()))
-            size, ram = memory(board)
-            several = []
-            for kind, (samples, _) in SAMPLINGS.items():
-                known = []
-                for name in SAMPLED:
-                    run = sampled.get((board, number, name, kind))
-                    if run is not None and "refused" not in run.result:
-                        counts = operations(run.scene, run.size, samples)
-                        known.append(run.result["instructions"] / predict(cost, counts))
-                several.append(sorted(known)[len(known) // 2] if known else 1)
-            costs = ", ".join(f"{cost.get(name, 0):.1f}" for name in names())
-            flashes, stacks = (", ".join(f"{v:.0f}" for v in effect) for effect in (flash, stack))
-            lines.append(f'    {{"{board}", "{number}", {size}, {ram}, {per:.3f}, '
-                         f'{several[0]:.3f}, {several[1]:.3f},\n     {{{costs}}},\n'
-                         f"     {{{flashes}}},\n     {{{stacks}}}}},\n")
-    shares.sort()
-    order = ", ".join(f'"{e.removeprefix("effect_")}"' for e in effects)
-    text = f"""// Made by `make calibrate`; not to be edited. Costs of each board and number system: of every
-// operation of src/cli/counts.hpp in instructions, and of every effect in bytes of flash.
+            one = self.traced[board, number, name].result
+            counts = self.counted(name, run.size, SAMPLINGS[kind][0])
+            ratio.append(run.result["instructions"] / self.costs[board, number].predict(counts))
+            flash.append(max(run.result["flash"] - one["flash"], 0))
+            stack.append(max(run.result["stack_bound"] - one["stack_bound"], 0))
+        return median(ratio, 1), median(flash, 600), median(stack, 60)
+
+    def entry(self, board, number):
+        """Of calibration.hpp."""
+        measured, counted = self.measured(board, number)
+        costs = self.costs[board, number]
+        several = {kind: self.several(board, number, kind) for kind in SAMPLINGS}
+        names_of = effects_of(next(iter(counted.values())))
+        flash = fit_bytes(measured, counted, "flash", number)
+        stack = fit_bytes(measured, counted, "stack_bound", number)
+        for kind, (_, flash_more, stack_more) in several.items():
+            at = 1 + names_of.index("effect_" + kind)
+            flash[at], stack[at] = flash_more, stack_more
+        cycles_each = (sum(m["cycles"] for m in measured.values())
+                       / sum(m["instructions"] for m in measured.values()))
+        size, ram = memory(board)
+        effects = ", ".join(f"{v:.0f}" for v in flash[:-2])
+        stacks = ", ".join(f"{v:.0f}" for v in stack)
+        each = ", ".join(f"{costs.of.get(name, 0):.1f}" for name in names())
+        return (f'    {{"{board}", "{number}", {size}, {ram}, {cycles_each:.3f}, '
+                f'{several["grid"][0]:.3f}, {several["adaptive"][0]:.3f}, '
+                f"{costs.plain:.4f}, {costs.effect:.5f},\n     {{{each}}},\n"
+                f"     {{{effects}}}, {flash[-2]:.0f}, {flash[-1]:.0f},\n     {{{stacks}}}}},\n")
+
+    def text(self):
+        for board in BOARDS:
+            for number in runs.numbers():
+                self.fit(board, number)
+        entries = [self.entry(board, number) for board in BOARDS for number in runs.numbers()]
+        order = [e.removeprefix("effect_") for e in effects_of(next(iter(self.counts.values())))]
+        quoted = ", ".join(f'"{e}"' for e in order)
+        return f"""// Made by `make calibrate`; not to be edited. Costs of each board and number system: of every
+// operation of src/cli/counts.hpp in instructions, and of every effect in bytes of flash and of stack.
 #pragma once
 
 namespace qray::study {{
@@ -174,27 +272,46 @@ namespace qray::study {{
 struct Calibration {{
     const char* board;
     const char* number;
-    unsigned flash, ram;  // bytes that the board has
-    double cycles;        // an instruction, modelled
+    unsigned flash, ram;   // bytes that the board has
+    double cycles;         // an instruction, modelled
     double grid, adaptive; // instructions with several samples, by what the operations cost with one
+    double plain, effect;  // what all of them are multiplied by: plain + effect * number of effects
     double cost[{len(names())}];
-    double flash_bytes[{len(effects) + 1}], stack_bytes[{len(effects) + 1}]; // of every program, then of each effect
+    double flash_bytes[{len(order) + 1}]; // of every program, then of each effect
+    double kind_bytes, ball_bytes; // of a kind of shapes beyond the first; of a ball, up to few_balls
+    double stack_bytes[{len(order) + 1}];
 }};
 
-inline constexpr const char* effect_order[] = {{{order}}};
+inline constexpr unsigned few_balls = {FEW_BALLS};
+inline constexpr const char* effect_order[] = {{{quoted}}};
 
 inline constexpr Calibration calibrations[] = {{
-{"".join(lines)}}};
+{"".join(entries)}}};
 
 }} // namespace qray::study
 """
-    text = "\n".join(wrap(line) for line in text.split("\n"))
+
+    def shares_off(self):
+        """What the costs tell of the pictures that they were made from: (off, board, number, scene)."""
+        out = []
+        for (board, number), costs in self.costs.items():
+            measured, counted = self.measured(board, number)
+            out += [(abs(costs.predict(counted[n]) / m["instructions"] - 1), board, number, n)
+                    for n, m in measured.items()]
+        return sorted(out)
+
+
+def main():
+    calibration = Calibration()
+    calibration.perform()
+    text = "\n".join(wrap(line) for line in calibration.text().split("\n"))
     with open(OUTPUT + ".part", "w") as file:
         file.write(text)
     os.replace(OUTPUT + ".part", OUTPUT)
-    print(f"{OUTPUT}: {len(lines)} boards and number systems; of the pictures that it was made from it "
-          f"tells the instructions within {100 * shares[len(shares) // 2][0]:.0f} % (median), "
-          f"{100 * shares[-1][0]:.0f} % at worst ({' '.join(shares[-1][1:])})")
+    off = calibration.shares_off()
+    print(f"{OUTPUT}: {len(calibration.costs)} boards and number systems; of the pictures that it was made "
+          f"from it tells the instructions within {100 * off[len(off) // 2][0]:.0f} % (median), "
+          f"{100 * off[-1][0]:.0f} % at worst ({' '.join(off[-1][1:])})")
 
 
 def wrap(line):

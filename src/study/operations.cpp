@@ -1,8 +1,11 @@
 // The counts that predictions start from (src/cli/counts.hpp), for calibration.
 //   operations SCENE WxH [SAMPLES | aLEVELS,THRESHOLD]
-// One `name: value` a line: its counts, then its effects.
+// One `name: value` a line: its counts, its effects, its kinds of shapes and its balls, and the bytes of its tables
+// in each number system that it fits.
 #include "../cli/counts.hpp"
 #include "../cli/input.hpp"
+#include "../cli/options.hpp"
+#include "../cli/renderer.hpp"
 #include "../scene/builder.hpp"
 #include "../scene/effect_names.hpp"
 
@@ -40,5 +43,10 @@ int main(int argc, char** argv)
         printf("%s: %.1f\n", cli::operation_names[i], counts.of[i]);
     for (const scene::EffectName& e : scene::effect_names)
         printf("effect_%s: %d\n", e.name, storage.effects.*e.effect);
+    printf("kinds: %d\nballs: %u\n", storage.effects.shapes(), storage.spheres.count);
+    cli::Built built{};
+    for (size_t i = 0; i < sizeof cli::renderers / sizeof *cli::renderers; i++)
+        if (cli::renderers[i]->build(description, settings, built, error))
+            printf("tables_%s: %u\n", cli::number_names[i], built.table_bytes);
     return 0;
 }
