@@ -32,4 +32,32 @@ void expect_bounded(uint64_t seed, bool energy)
 TYPED_TEST(BoundsTest, HostileScenesStayInRange) { expect_bounded<TypeParam>(1, false); }
 TYPED_TEST(BoundsTest, EnergyDoesNotGrow) { expect_bounded<TypeParam>(2, true); }
 
+// Scenes of `make soak-scenes` whose balls are so small that their radius has no square in float.
+TEST(Bounds, BallWithoutASquareInFloatDoesNotShine)
+{
+    SceneTally t;
+    for (const uint64_t scene : {6531, 24361, 24960, 59839, 67764, 94158, 99629, 124809})
+        draw_random<qray::Float>(4, 1, true, t, scene);
+    EXPECT_EQ(t.accepted, 8u);
+    EXPECT_EQ(t.negative, 0u) << t.first_fault;
+    EXPECT_EQ(t.brighter, 0u) << t.first_fault;
+}
+
+// Light from beyond the square root of the greatest float: the same as from infinitely far, n.l = 0.6 of 0.5.
+TEST(Bounds, LightTooFarForASquareInFloatIsSeen)
+{
+    using namespace qray;
+    const std::string text = "v from 0 0 5e-9 at 0 0 0 up 0 1 0 angle 10 hither 1 resolution 1 1\nl 0 4e14 3e14 0.5 0.5 0.5\n"
+                             "material colour 1 1 1 ambient 0 diffuse 1 highlight 0 shine 1 mirror 0 transmit 0 ior 1\n"
+                             "disc 0 0 0 0 0 1 2e-9\n";
+    scene::Error error;
+    auto& description = kept<scene::Description>();
+    auto& storage = kept<scene::Storage<Float>>();
+    ASSERT_TRUE(scene::parse("far light", text.data(), text.size(), description, error)) << error.text;
+    ASSERT_TRUE(scene::Builder<Float>(description, {}, storage).build(error)) << error.text;
+    const auto s = storage.view<everything(6)>();
+    CountRays rays;
+    EXPECT_NEAR(trace(s, s.camera.ray(s.camera.row(0)), rays).x, 0.3f, 1e-6f);
+}
+
 } // namespace

@@ -11,7 +11,7 @@
 //
 // U^2 - V^2 has an error of 2 |U| ulp, B^2 - A C one of 2 (|B| + rho |A|). Close to a generator, where A and B vanish and
 // the root is small, that is the better in fixed point: a ray could lose the end of a chord that is 16 ulp deep. Where it
-// comes out small, too, it is formed again at -B/A: there it is -A C, and rho, near an apex, is far less than mid-axis.
+// comes out negative, too, and rho is far less at -B/A, near an apex, it is formed again there, where it is -A C.
 #pragma once
 
 #include "narrow.hpp"
@@ -98,13 +98,15 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
         if (along_generator) {
             bool real = N::small_discriminant(half_b, a, c, root);
             Length deepest{};
-            if ((!real || N::is_small(root)) && N::quotient(-half_b, a, k, deepest) && deepest <= s.bound
+            if (!real && leaving != Leaves::inward && N::quotient(-half_b, a, k, deepest) && deepest <= s.bound
                 && -deepest <= s.bound) {
                 deepest = N::coarse(deepest, k);
-                const Length x = cx + N::length(deepest * cdx);
-                const Length y = cy + N::length(deepest * cdy);
-                const Length r = rho + N::length(deepest * ds);
-                real = N::root_of_product(a, r * r - x * x - y * y, root);
+                const Length r = rho + N::length(deepest * ds), small = N::coarse(rho, 2);
+                if (r < small && -r < small) { // near an apex
+                    const Length x = cx + N::length(deepest * cdx);
+                    const Length y = cy + N::length(deepest * cdy);
+                    real = N::root_of_product(a, r * r - x * x - y * y, root);
+                }
             }
             if (!real && leaving != Leaves::inward)
                 return 0;
@@ -210,7 +212,7 @@ constexpr void surface_of(const Cone<N>& s, const Local<N>& local, const Directi
                            N::length(N::length(c * across.y) * c - back * s.axis.y),
                            N::length(N::length(c * across.z) * c - back * s.axis.z)};
     n = s.sine > N::zero ? -s.axis : s.axis;
-    normalise<N>(outward, n);
+    normalise_short<N>(outward, n);
     const auto height = N::length(c * N::sqrt(norm2<N>(across))) - rho;
     point = s.middle + coarse<N>(from_rounded(w - along<N>(height, n), s.rounded), s.fine);
 }

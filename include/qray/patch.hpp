@@ -56,7 +56,7 @@ constexpr Direction<N> shading_normal(const Patch<N>& s, const Point<N>* vertice
         const Direction<N>& na = normals[s.first];
         const Direction<N>& nb = normals[s.second];
         const Direction<N>& nc = normals[s.second + 1];
-        normalise<N>(Vec<typename N::Cosine>{wa * na.x + wb * nb.x + wc * nc.x, wa * na.y + wb * nb.y + wc * nc.y,
+        normalise_short<N>(Vec<typename N::Cosine>{wa * na.x + wb * nb.x + wc * nc.x, wa * na.y + wb * nb.y + wc * nc.y,
                                              wa * na.z + wb * nb.z + wc * nc.z},
                      n);
     }

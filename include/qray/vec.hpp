@@ -82,4 +82,14 @@ QRAY_INLINE constexpr bool normalise(const Vec<T>& v, Vec<typename N::Unit>& u)
     return N::normalise(v.x, v.y, v.z, u.x, u.y, u.z);
 }
 
+// The same of what may be so short that its square is too small for float: false there, too.
+template <class N, class T>
+QRAY_INLINE constexpr bool normalise_short(const Vec<T>& v, Vec<typename N::Unit>& u)
+{
+    if constexpr (!N::is_fixed)
+        if (!(N::norm2(v.x, v.y, v.z) > N::least_square))
+            return false;
+    return normalise<N>(v, u);
+}
+
 } // namespace qray

@@ -94,6 +94,8 @@ private:
     // How far a point may lie from the origin, and what block-scaled radii may be: see cone.hpp, q16.hpp.
     static constexpr double world = 62, cone_world = IsNarrow<N> ? 18 : 40, sphere_world = 31.9;
 
+    static constexpr bool is_float = !N::is_fixed && sizeof(typename N::Length) == 4;
+
     const Description& d;
     const Settings& settings;
     Storage<N>& s;
@@ -228,6 +230,16 @@ private:
         if constexpr (N::is_fixed)
             return r < N::leave(N::one);
         else
+            return vanishes(r);
+    }
+
+    // The squares of less than 2^-40 of a world of +-62, to the last bit of float, are too small for it: normals would be
+    // of any length.
+    static bool vanishes(typename N::Length r)
+    {
+        if constexpr (is_float)
+            return r < 0x1p-40f;
+        else
             return r == N::length_zero;
     }
 
@@ -266,7 +278,7 @@ private:
         const Vec3d axis = unit(along);
         const double growth = (o.rb - o.ra) / height;
         const double cosine = 1 / sqrt(1 + growth * growth), sine = growth * cosine;
-        if (radius(fmax(o.ra, o.rb)) == N::length_zero || radius(height) == N::length_zero) {
+        if (vanishes(radius(fmax(o.ra, o.rb))) || vanishes(radius(height))) {
             s.vanished++;
             return;
         }
@@ -400,13 +412,16 @@ private:
             if constexpr (N::is_fixed)
                 for (; (IsNarrow<N> ? length(at) : largest(at)) > world; at = at * 0.5)
                     shift++;
-            if (shift > 31) { // so far away that it is a sun
+            if (shift > 31 || (is_float && largest(at) > 0x1p60)) { // so far away that it is a sun; in float, its square infinite
                 s.suns.push() = {Convert<N>::direction(unit(at)), colour(l.colour)};
                 continue;
             }
+            if constexpr (is_float) // what is not 0 from there to a surface has a square that float holds
+                at = {off_zero(at.x), off_zero(at.y), off_zero(at.z)};
             s.lights.push() = {Convert<N>::point(at), shift, colour(l.colour)};
         }
     }
+    static double off_zero(double v) { return copysign(fmax(fabs(v), 0x1p-38), v); }
     static constexpr double range = 7.99;
 
     Rgb<N> colour(const Vec3d& c) const { return Convert<N>::rgb(c * ldexp(1, -s.exposure)); }

@@ -33,11 +33,11 @@ T& kept()
 
 // The light of every sample must be in range, the number of rays within that of a binary tree of the greatest depth.
 template <class N>
-void draw_random(uint64_t seed, uint64_t count, bool energy, SceneTally& tally)
+void draw_random(uint64_t seed, uint64_t count, bool energy, SceneTally& tally, uint64_t first = 0)
 {
     using namespace qray;
     constexpr Effects effects = everything(6);
-    for (uint64_t i = 0; i < count; i++) {
+    for (uint64_t i = first; i < first + count; i++) {
         const uint64_t scene_seed = seed * 0x1000003 + i;
         const std::string text = RandomScene(scene_seed).text(energy);
         tally.scenes++;
