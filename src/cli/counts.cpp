@@ -48,7 +48,8 @@ bool has_roots(const Cone<Counting>& s, const Shot& ray)
 {
     const Vec<double> v = s.middle - ray.origin;
     const double along = product(v, ray.direction);
-    const Vec<double> o = Vec<double>{ray.direction.x * along, ray.direction.y * along, ray.direction.z * along} - v;
+    const Vec<double>& d = ray.direction;
+    const Vec<double> o = Vec<double>{d.x * along, d.y * along, d.z * along} - v;
     const double ox = product(o, s.e1), oy = product(o, s.e2), rho = s.rho0 + s.sine * product(o, s.axis);
     const double dx = product(ray.direction, s.e1), dy = product(ray.direction, s.e2);
     const double ds = s.sine * product(ray.direction, s.axis), c = s.cosine * s.cosine;

@@ -8,11 +8,11 @@
 
 namespace qray::cli {
 
-// A `veiled` ray is one to a light in a scene where surfaces may let light through. Of a shape kind: `test`, of
-// each of its shapes by each ray; `several` and `many`, of those the ones in a list of more than one and of more
-// than eight, which compilers unroll or not; `ahead`, its bounding ball is not all behind the ray; `line`, the
-// ray's whole line enters that ball; `near`, both; `met`, a surface that is unbounded otherwise; `corner` and
-// `found`, corners of those whose plane is met, and of those that are; `seen`, the hit that is shaded.
+// A `veiled` ray is one to a light in a scene where surfaces may let light through. Of a shape kind: `test`,
+// a ray and a shape; `several` and `many`, those of a list of more than one and of more than eight, which
+// compilers unroll or not; `ahead`, the shape's bounding ball is not all behind the ray; `line`, the ray's
+// whole line enters that ball; `near`, both; `met`, so is its plane or its endless cone; `corner` and
+// `found`, the corners of those whose plane is met, and of those that are; `seen`, the hit that is shaded.
 enum class Operation : uint8_t {
     pixel, sample, ray, shadow_ray, veiled_ray, test, veiled_test, found,
     sphere_test, sphere_several, sphere_many, sphere_ahead, sphere_line, sphere_met, sphere_seen,

@@ -321,7 +321,7 @@ int plan_main(int argc, char** argv)
     if (status != go_on)
         return status;
     if (costs_known != operation_count) {
-        fputs("qray: the operations that costs are known of have changed; make calibrate measures them again\n",
+        fputs("qray: operations have changed since their costs were measured; make calibrate does that\n",
               stderr);
         return 1;
     }

@@ -22,14 +22,15 @@ SIZES = {"float": "8x6", "double": "6x4"}
 SIZE = "12x9"
 # Beside mixtures.py's.
 SCENES = ["floor", "showcase", "glass", "castle", "patches", "materials", "polygons", "lights"]
-# Double is float's library with longer numbers: what it costs is what soft float does, times a factor for each
-# step that these scenes tell.
+# Double is float's library with longer numbers: what it costs is what soft float does, times a factor for
+# each step that these scenes tell.
 DOUBLE = "double"
 DOUBLE_SCENES = ["floor", "showcase", "market", "attic"]
 SOFT = {"mps2_an386": "mps2_an385"}
 # A program with several samples is compiled into other code: its instructions by those that are predicted,
 # and the bytes that it takes more, from these.
-SAMPLED = ["floor", "showcase", "market"]
+SAMPLED = {"grid": ["floor", "showcase", "market", "gravel", "shards"],
+           "adaptive": ["floor", "market", "shards"]}
 SAMPLINGS = {"grid": ("4", {"SAMPLES": 4}), "adaptive": ("a2,0.0625", {"ADAPTIVE": "2,0.0625"})}
 
 FEW_BALLS = 8  # that compilers are asked to unroll a loop over: QRAY_UNROLL
@@ -40,8 +41,8 @@ def of(kind, *what):
     return [f"{kind}_{w}" for w in what]
 
 
-# The operations that a step's instructions are shared out to. What a step of shapes takes for each test differs
-# with the length of their list, as compilers unroll short ones, and so does what finding the nearest does.
+# The operations that a step's instructions are shared out to. What a step of shapes takes for each test
+# differs with the length of their list, as compilers unroll short ones; so does finding the nearest.
 STEPS = {
     "camera": ["sample", "pixel"], "output": ["sample", "pixel"],
     "spheres": of("sphere", "test", *LISTED, "ahead", "line", "met", "seen"),
@@ -51,8 +52,8 @@ STEPS = {
     "patches": of("patch", "test", *LISTED, "ahead", "line", "near", "met", "found", "seen"),
     "nearest hit": ["ray", "shadow_ray", "veiled_ray", "test", "veiled_test", "found"]
     + [f"{kind}_{w}" for kind in ("sphere", "disc", "cone", "polygon", "patch") for w in LISTED],
-    "shading": ["ray", "shadow_ray", "hit", "lamp", "sun_lamp", "lit", "shine", "shine_square", "shine_fraction",
-                "mirrored", "refracted", "glass"],
+    "shading": ["ray", "shadow_ray", "hit", "lamp", "sun_lamp", "lit", "shine", "shine_square",
+                "shine_fraction", "mirrored", "refracted", "glass"],
     **{texture: [texture] for texture in cycles.TEXTURES},
 }
 
@@ -113,8 +114,11 @@ def shares_of(measured, step):
 
 def fit(measured, counted):
     """{step: {operation: instructions}} of one board and number system."""
-    return {step: dict(zip(parts, least_squares(rows_of(measured, counted, parts), shares_of(measured, step))))
-            for step, parts in STEPS.items()}
+    out = {}
+    for step, parts in STEPS.items():
+        values = least_squares(rows_of(measured, counted, parts), shares_of(measured, step))
+        out[step] = dict(zip(parts, values))
+    return out
 
 
 def scaled(cost, measured, counted):
@@ -137,8 +141,8 @@ def effects_of(counts):
 
 
 class Costs:
-    """Of one board and number system. Beside what operations cost, all of them cost more in a scene that calls
-    for more effects, as compilers then have fewer registers for each."""
+    """Of one board and number system. Beside what operations cost, all of them cost more in a scene that
+    calls for more effects, as compilers then have fewer registers for each."""
 
     def __init__(self, steps, measured, counted):
         self.of = {}
@@ -149,8 +153,9 @@ class Costs:
         effects = [sum(counted[s][e] for e in effects_of(counted[s])) for s in measured]
         known = [m["instructions"] / self.predict(counted[s]) for s, m in measured.items()]
         x, y = (sum(v) / len(v) for v in (effects, known))
-        self.effect = (sum((a - x) * (b - y) for a, b in zip(effects, known))
-                       / sum((a - x) ** 2 for a in effects))
+        if len(measured) > len(DOUBLE_SCENES):
+            self.effect = (sum((a - x) * (b - y) for a, b in zip(effects, known))
+                           / sum((a - x) ** 2 for a in effects))
         self.plain = y - self.effect * x
 
     def predict(self, counts):
@@ -159,9 +164,9 @@ class Costs:
 
 
 def fit_bytes(measured, counted, what, number):
-    """Bytes of flash or of stack: of every program, of each effect, and of flash, of a kind of shapes beyond the
-    first and of a ball where they are few, for which compilers may write code of its own. The tables that
-    a scene is in come to that."""
+    """Bytes of flash or of stack: of every program, of each effect, and of flash, of a kind of shapes beyond
+    the first and of a ball where they are few, for which compilers may write code of its own. The tables
+    that a scene is in come to that."""
     rows, wanted = [], []
     for scene, m in measured.items():
         c = counted[scene]
@@ -191,8 +196,8 @@ class Calibration:
                 for name in DOUBLE_SCENES if number == DOUBLE else self.scenes:
                     self.traced[board, number, name] = runs.Run(board, self.scenes[name], number, size,
                                                                 profile=True)
-                for name in SAMPLED if number != DOUBLE else ():
-                    for kind, (_, options) in SAMPLINGS.items():
+                for kind, (_, options) in SAMPLINGS.items() if number != DOUBLE else ():
+                    for name in SAMPLED[kind]:
                         self.sampled[board, number, name, kind] = runs.Run(board, self.scenes[name], number,
                                                                            size, **options)
 
@@ -223,7 +228,7 @@ class Calibration:
     def several(self, board, number, kind):
         """Instructions by those predicted, flash and stack beyond those of one sample."""
         ratio, flash, stack = [], [], []
-        for name in SAMPLED:
+        for name in SAMPLED[kind]:
             run = self.sampled.get((board, number, name, kind))
             if run is None or "refused" in run.result:
                 continue
@@ -232,7 +237,7 @@ class Calibration:
             ratio.append(run.result["instructions"] / self.costs[board, number].predict(counts))
             flash.append(max(run.result["flash"] - one["flash"], 0))
             stack.append(max(run.result["stack_bound"] - one["stack_bound"], 0))
-        return median(ratio, 1), median(flash, 600), median(stack, 60)
+        return sum(ratio) / len(ratio) if ratio else 1, median(flash, 600), median(stack, 60)
 
     def entry(self, board, number):
         """Of calibration.hpp."""
@@ -263,8 +268,8 @@ class Calibration:
         entries = [self.entry(board, number) for board in BOARDS for number in runs.numbers()]
         order = [e.removeprefix("effect_") for e in effects_of(next(iter(self.counts.values())))]
         quoted = ", ".join(f'"{e}"' for e in order)
-        return f"""// Made by `make calibrate`; not to be edited. Costs of each board and number system: of every
-// operation of src/cli/counts.hpp in instructions, and of every effect in bytes of flash and of stack.
+        return f"""// Made by `make calibrate`; not to be edited. Costs of each board and number system:
+// of every operation of src/cli/counts.hpp in instructions, of every effect in bytes of flash and of stack.
 #pragma once
 
 namespace qray::study {{

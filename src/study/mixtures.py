@@ -1,10 +1,10 @@
-"""Scenes to calibrate with: of each kind of shape one, some and many, in chance places, of chance materials."""
+"""Scenes to calibrate with: of each kind of shape one, some or many, in chance places and materials."""
 
 import os
 import random
 
-# Name: how many balls, discs, cones, polygons, patches; what some of them are made of, and whether balls lie one
-# in the other or cones are thin; the light.
+# Name: how many balls, discs, cones, polygons, patches; what some of them are made of, and whether balls lie
+# one in the other or cones are thin; the light.
 MIXTURES = {
     "ball": (1, 1, 0, 0, 0, "highlight", "light shadow"),
     "balls": (6, 1, 0, 0, 0, "mirror highlight", "light light shadow"),
@@ -31,7 +31,8 @@ MIXTURES = {
 TEXTURES = {
     "checker": "checker 0.2 0.3 0.2 0.7", "stripes": "stripes 0.9 0.9 0.2 0.4 1 1 0.3",
     "gradient": "gradient 0.2 0.3 0.9 3 0 1 0.2", "rings": "rings 0.9 0.2 0.2 0.4",
-    "noise": "noise 0.1 0.2 0.2 0.4", "marble": "marble 0.2 0.2 0.3 0.5 1 0 0.2", "wood": "wood 0.3 0.2 0.1 0.4 0.3 1 0.1",
+    "noise": "noise 0.1 0.2 0.2 0.4", "marble": "marble 0.2 0.2 0.3 0.5 1 0 0.2",
+    "wood": "wood 0.3 0.2 0.1 0.4 0.3 1 0.1",
     "brick": "brick 0.8 0.8 0.7 0.6",
 }
 MATERIALS = {
@@ -72,7 +73,8 @@ def scene(name):
             lines.append("sun " + text(u(-1, 1), 1, u(0, 1)) + " 0.5 0.5 0.5")
     objects = []
     for i in range(balls):
-        objects.append("s " + (text(0, 1.3, 0, 0.5 * 1.33 ** i) if nested else text(*place(balls), size(balls))))
+        ball = [0, 1.3, 0, 0.5 * 1.33 ** i] if nested else place(balls) + [size(balls)]
+        objects.append("s " + text(*ball))
     for i in range(discs):
         floor = [0, 0, 0, 0, 1, 0, 9]
         objects.append("disc " + text(*(floor if i == 0 else place(discs) + direction() + [size(discs)])))

@@ -1,7 +1,7 @@
 // The counts that predictions start from (src/cli/counts.hpp), for calibration.
 //   operations SCENE WxH [SAMPLES | aLEVELS,THRESHOLD]
-// One `name: value` a line: its counts, its effects, its kinds of shapes and its balls, and the bytes of its tables
-// in each number system that it fits.
+// One `name: value` a line: its counts, its effects, its kinds of shapes and its balls, and the bytes of its
+// tables in each number system that it fits.
 #include "../cli/counts.hpp"
 #include "../cli/input.hpp"
 #include "../cli/options.hpp"
