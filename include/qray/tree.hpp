@@ -95,7 +95,7 @@ private:
         return square * Float4{k, k, k, k} - along * along;
     }
     // The sign is the highest bit, which is the only one that mask_bits() sees.
-    QRAY_INLINE static Mask4 sign(Float4 v) { return reinterpret_cast<Mask4>(v); }
+    QRAY_INLINE static Mask4 sign(Float4 v) { return __builtin_bit_cast(Mask4, v); }
     Float4 ox, oy, oz, dx, dy, dz;
 };
 
