@@ -201,4 +201,26 @@ TEST(Base, RootsOfWhatHasNone) {
     EXPECT_EQ(errno, 0);
 }
 
+TEST(Base, ProductsOf64BitsAreComparedExactly) {
+    std::mt19937_64 random(8);
+    constexpr int64_t most = std::numeric_limits<int64_t>::max(), least = std::numeric_limits<int64_t>::min();
+    std::vector<int64_t> ends{0, 1, -1, 2, int64_t{1} << 31, int64_t{1} << 32, -(int64_t{1} << 32), (int64_t{1} << 32) - 1, most, least};
+    const auto check = [](int64_t a, int64_t b, int64_t c, int64_t d) {
+        const i128 first = i128{a} * b, second = i128{c} * d;
+        return compare_products(a, b, c, d) == (first > second) - (first < second);
+    };
+    for (int64_t a : ends)
+        for (int64_t b : ends)
+            for (int64_t c : ends)
+                for (int64_t d : ends)
+                    ASSERT_TRUE(check(a, b, c, d)) << a << " " << b << " " << c << " " << d;
+    for (int i = 0; i < 200000; i++) {
+        const auto any = [&random] { return static_cast<int64_t>(random()) >> (random() % 64); };
+        const int64_t a = any() >> 1, b = any() >> 1;
+        ASSERT_TRUE(check(a, b, any(), any()));
+        ASSERT_TRUE(check(a, b, a + static_cast<int64_t>(random() % 3) - 1, b)); // next to each other
+        ASSERT_TRUE(check(a, b, -b, -a));
+    }
+}
+
 } // namespace

@@ -36,7 +36,7 @@ TYPED_TEST(BoundsTest, EnergyDoesNotGrow) { expect_bounded<TypeParam>(2, true); 
 TEST(Bounds, BallWithoutASquareInFloatDoesNotShine)
 {
     SceneTally t;
-    for (const uint64_t scene : {6531, 24361, 24960, 59839, 67764, 94158, 99629, 124809})
+    for (const uint64_t scene : {6531u, 24361u, 24960u, 59839u, 67764u, 94158u, 99629u, 124809u})
         draw_random<qray::Float>(4, 1, true, t, scene);
     EXPECT_EQ(t.accepted, 8u);
     EXPECT_EQ(t.negative, 0u) << t.first_fault;

@@ -282,6 +282,18 @@ TYPED_TEST(NumberTest, WeightsTakeATraceOfTheWrongSignForZero)
     EXPECT_FALSE(N::weights(none, none, none, a, b, c));
 }
 
+TEST(Number, AreasTooSmallForAReciprocalHaveNoWeights)
+{
+    float a{}, b{}, c{};
+    EXPECT_FALSE(Float::weights(1e-39f, 1e-39f, 0, a, b, c));
+    EXPECT_TRUE(Float::weights(1e-36f, -1e-39f, 1e-36f, a, b, c));
+    EXPECT_NEAR(a + b + c, 1, 1e-3);
+    double x{}, y{}, z{};
+    EXPECT_FALSE(Double::weights(1e-310, 1e-310, 0, x, y, z));
+    EXPECT_TRUE(Double::weights(1e-300, 0, 0, x, y, z));
+    EXPECT_NEAR(x, 1, 1e-15);
+}
+
 TYPED_TEST(NumberTest, NormaliseWorksForLengthsOfEverySize)
 {
     using N = TypeParam;

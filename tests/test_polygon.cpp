@@ -1,3 +1,5 @@
+#include <array>
+
 #include "shape_helpers.hpp"
 
 namespace {
@@ -125,6 +127,55 @@ TYPED_TEST(PolygonTest, AgreesWithThePlaneAndTheSidesOfATriangle)
     EXPECT_GT(hits, 1000);
     EXPECT_LE(worst, 2);
 }
+
+// Of the ray's direction and two corners seen from its origin, in steps of the number system: on which side the edge passes.
+template <class N>
+__int128 volume(const Ray<N>& ray, const Point<N>& a, const Point<N>& b)
+{
+    const auto from = [&ray](const Point<N>& p) {
+        return std::array<__int128, 3>{__int128{p.x.raw} - ray.origin.x.raw, __int128{p.y.raw} - ray.origin.y.raw,
+                                       __int128{p.z.raw} - ray.origin.z.raw};
+    };
+    const auto u = from(a), v = from(b);
+    const auto& d = ray.direction;
+    return d.x.raw * (u[1] * v[2] - u[2] * v[1]) + d.y.raw * (u[2] * v[0] - u[0] * v[2]) + d.z.raw * (u[0] * v[1] - u[1] * v[0]);
+}
+
+// For fixed point; in floating point corners are rounded when they are sheared.
+template <class N>
+void expect_exact_edges()
+{
+    using M = make<N>;
+    typename N::Length t{};
+    const auto limit = N::length_max;
+    // Slivers of some steps' width, and rays aimed at their edges.
+    Random random(57);
+    int inside = 0, outside = 0, wrong = 0;
+    for (int k = 0; k < 4000; k++) {
+        const Vec3 a = random.point(20), along = random.direction() * random.uniform(1, 20);
+        const double width = std::exp2(random.uniform(0, 12)) * M::length_ulp(1);
+        const Vec3 g = unit(cross(along, random.direction()));
+        const Vec3 b = a + along, c = a + along * random.uniform(0.1, 0.9) + cross(unit(along), g) * width;
+        const PolygonOf<N> s({a, b, c});
+        for (int i = 0; i < 10; i++) {
+            const Vec3 at = a + along * random.uniform(0, 1) + cross(unit(along), g) * (width * random.uniform(-0.5, 1));
+            const Vec3 from = at + (g + random.point(0.5)) * random.uniform(1, 15);
+            const auto ray = M::ray(from, at - from);
+            const auto* p = s.corners.at.data();
+            const auto u = volume<N>(ray, p[0], p[1]), v = volume<N>(ray, p[1], p[2]), w = volume<N>(ray, p[2], p[0]);
+            if (u == 0 || v == 0 || w == 0)
+                continue;
+            const bool expected = (u > 0) == (v > 0) && (v > 0) == (w > 0);
+            (expected ? inside : outside)++;
+            wrong += s.hit(ray, limit, t) != expected;
+        }
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(inside, 1000);
+    EXPECT_GT(outside, 1000);
+}
+TEST(PolygonEdge, IsWhereExactArithmeticSaysInQ32) { expect_exact_edges<q32>(); }
+TEST(PolygonEdge, IsWhereExactArithmeticSaysInQ16) { expect_exact_edges<q16>(); }
 
 TYPED_TEST(PolygonTest, OfTwoThatShareAnEdgeExactlyOneIsHit)
 {

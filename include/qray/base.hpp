@@ -248,6 +248,39 @@ QRAY_INLINE constexpr int32_t high_dot(int32_t ax, int32_t ay, int32_t az, int32
 #endif
 }
 
+namespace detail {
+
+struct Magnitude128 {
+    uint64_t high, low;
+};
+
+QRAY_NOINLINE constexpr Magnitude128 product_magnitude(int64_t a, int64_t b)
+{
+    const uint64_t x = a < 0 ? 0 - static_cast<uint64_t>(a) : static_cast<uint64_t>(a);
+    const uint64_t y = b < 0 ? 0 - static_cast<uint64_t>(b) : static_cast<uint64_t>(b);
+    const uint32_t xh = static_cast<uint32_t>(x >> 32), xl = static_cast<uint32_t>(x);
+    const uint32_t yh = static_cast<uint32_t>(y >> 32), yl = static_cast<uint32_t>(y);
+    const uint64_t low = wide_mul(xl, yl);
+    const uint64_t left = wide_mul(xh, yl) + (low >> 32);
+    const uint64_t right = wide_mul(xl, yh) + static_cast<uint32_t>(left);
+    return {wide_mul(xh, yh) + (left >> 32) + (right >> 32), right << 32 | static_cast<uint32_t>(low)};
+}
+
+} // namespace detail
+
+// The sign of a b - c d, exact: -1, 0 or 1.
+QRAY_NOINLINE constexpr int compare_products(int64_t a, int64_t b, int64_t c, int64_t d)
+{
+    const auto sign = [](int64_t x, int64_t y) { return x == 0 || y == 0 ? 0 : (x < 0) == (y < 0) ? 1 : -1; };
+    const int first = sign(a, b), second = sign(c, d);
+    if (first != second)
+        return first > second ? 1 : -1;
+    const detail::Magnitude128 m = detail::product_magnitude(a, b), n = detail::product_magnitude(c, d);
+    if (m.high != n.high)
+        return m.high > n.high ? first : -first;
+    return m.low == n.low ? 0 : m.low > n.low ? first : -first;
+}
+
 // x / 2^Shift to the nearest, halves up, for results that fit 32 bits.
 template <int Shift>
 QRAY_INLINE constexpr int32_t rounding_shift(int64_t x)

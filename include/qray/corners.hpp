@@ -4,8 +4,8 @@
 // ray runs along the dominant axis of its direction (after Woop, Benthin, Wald, Watertight Ray/Triangle Intersection,
 // JCGT 2013), and an edge counts where it crosses the half-line y = 0, x > 0. Whether it does depends on
 // nothing but the ray and the two corners, and not on their order: of two polygons that share an edge exactly one
-// owns each ray through it, and a closed mesh has no leak, in every number system. In fixed point the edge
-// function of the sheared corners is exact.
+// owns each ray through it, and a closed mesh has no leak, in every number system. In fixed point the answer is that of
+// exact arithmetic on the ray and the corners as they are given.
 #pragma once
 
 #include "plane.hpp"
@@ -51,13 +51,42 @@ struct Shear {
     // v is relative to the ray's origin. One rounding a component; |result| <= |v|.
     constexpr Sheared<N> operator()(const Point<N>& v) const
     {
+        const Moments m = exact(v);
+        if constexpr (IsNarrow<N>)
+            return {m.x, m.y};
+        else
+            return {N::length(m.x), N::length(m.y)};
+    }
+    // The same, but in fixed point each component keeps its sign: what is not exact is rounded down.
+    constexpr Sheared<N> below(const Point<N>& v) const
+    {
+        if constexpr (is_wide_fixed) {
+            const Moments m = exact(v);
+            return {N::length_below(m.x), N::length_below(m.y)};
+        } else {
+            return (*this)(v);
+        }
+    }
+    // The sign of the exact edge(a, b).
+    QRAY_NOINLINE constexpr int edge_sign(const Point<N>& a, const Point<N>& b) const
+        requires(N::is_fixed && !IsNarrow<N>)
+    {
+        const Moments m = exact(a), n = exact(b);
+        return compare_products(m.x.raw, n.y.raw, n.x.raw, m.y.raw);
+    }
+
+    static constexpr bool is_wide_fixed = N::is_fixed && !IsNarrow<N>;
+
+private:
+    struct Moments {
+        typename N::Moment x, y;
+    };
+    QRAY_INLINE constexpr Moments exact(const Point<N>& v) const
+    {
         const auto z = axis == 0 ? v.x : axis == 1 ? v.y : v.z;
         const auto x = axis == 0 ? v.y : axis == 1 ? v.z : v.x;
         const auto y = axis == 0 ? v.z : axis == 1 ? v.x : v.y;
-        if constexpr (IsNarrow<N>)
-            return {x * dz - z * dx, y * dz - z * dy};
-        else
-            return {N::length(x * dz - z * dx), N::length(y * dz - z * dy)};
+        return {x * dz - z * dx, y * dz - z * dy};
     }
 };
 
@@ -71,21 +100,39 @@ QRAY_INLINE constexpr auto edge(const Sheared<N>& a, const Sheared<N>& b)
         return a.x * b.y - b.x * a.y;
 }
 
-// Does the edge a-b cross the half-line y = 0, x > 0? The same answer for b-a.
-template <class N>
-QRAY_INLINE constexpr bool crosses(const Sheared<N>& a, const Sheared<N>& b)
+// Does the edge a-b cross the half-line y = 0, x > 0? The same answer for b-a. sign() is that of the exact edge(a, b),
+// where rounding leaves it open.
+template <class N, class Sign>
+QRAY_INLINE constexpr bool crosses(const Sheared<N>& a, const Sheared<N>& b, [[maybe_unused]] Sign sign)
 {
     constexpr decltype(a.x) o{};
-    const bool up = b.y > o;
-    if ((a.y > o) == up)
-        return false;
-    if (a.x <= o && b.x <= o)
-        return false;
-    if (a.x > o && b.x > o)
-        return true;
-    const auto e = edge<N>(a, b);
-    constexpr decltype(e) none{};
-    return up ? e > none : e < none;
+    if constexpr (Shear<N>::is_wide_fixed) {
+        const bool up = b.y >= o;
+        if ((a.y >= o) == up)
+            return false;
+        if (a.x < o && b.x < o)
+            return false;
+        if (a.x > o && b.x > o)
+            return true;
+        // Each coordinate is less than 1 too low, which is worth less than it and 1 in a product.
+        const int64_t margin = int64_t{N::magnitude(a.x.raw) | N::magnitude(a.y.raw) | N::magnitude(b.x.raw) | N::magnitude(b.y.raw)} * 4 + 2;
+        const int64_t e = edge<N>(a, b).raw;
+        if (e > margin || e < -margin)
+            return (e > 0) == up;
+        const int s = sign();
+        return up ? s > 0 : s < 0;
+    } else {
+        const bool up = b.y > o;
+        if ((a.y > o) == up)
+            return false;
+        if (a.x <= o && b.x <= o)
+            return false;
+        if (a.x > o && b.x > o)
+            return true;
+        const auto e = edge<N>(a, b);
+        constexpr decltype(e) none{};
+        return up ? e > none : e < none;
+    }
 }
 
 // The distance to the plane of a surface that the ray is known to pass through. Where the plane is seen almost
@@ -120,11 +167,17 @@ constexpr bool intersect_corners(const Direction<N>& normal, uint32_t count, Cor
         return false;
     const Shear<N> shear(ray.direction);
     bool inside = false;
-    Sheared<N> a = shear(corner(count - 1));
+    uint32_t last = count - 1;
+    Sheared<N> a = shear.below(corner(last));
     for (uint32_t i = 0; i < count; i++) {
-        const Sheared<N> b = shear(corner(i));
-        inside = inside != crosses<N>(a, b);
+        const Sheared<N> b = shear.below(corner(i));
+        const auto sign = [&] {
+            if constexpr (Shear<N>::is_wide_fixed)
+                return shear.edge_sign(corner(last), corner(i));
+        };
+        inside = inside != crosses<N>(a, b, sign);
         a = b;
+        last = i;
     }
     if (!inside)
         return false;

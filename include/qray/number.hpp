@@ -44,6 +44,8 @@ struct FixedSystem {
 
     template <int F>
     QRAY_INLINE static constexpr Length length(Wide<F, Bits> w) { return round_to<Length>(w); }
+    // Rounded down: 0 or more if w is.
+    QRAY_INLINE static constexpr Length length_below(Moment w) { return {static_cast<int32_t>(w.raw >> UnitFrac)}; }
     template <int F>
     QRAY_INLINE static constexpr Unit unit(Wide<F, Bits> w) { return round_to<Unit>(w); }
     template <int F>
@@ -150,11 +152,6 @@ struct FixedSystem {
     {
         constexpr int64_t eighth = int64_t{1} << (2 * UnitFrac - 3);
         return -eighth < a.raw && eighth > a.raw;
-    }
-    // Is the root of a discriminant less than 2^-4, so that rounding may have changed it by more than a hundredth?
-    QRAY_INLINE static constexpr bool is_small(Moment root)
-    {
-        return root.raw < int64_t{1} << (LengthFrac + UnitFrac - 4);
     }
 
     // t = 2^k num / den, within 2 ulp. False where den is 0 or t does not fit Length.
@@ -456,7 +453,8 @@ struct FloatSystem {
     static constexpr bool weights(F a, F b, F c, F& wa, F& wb, F& wc)
     {
         F sum = a + b + c;
-        if (sum == 0)
+        constexpr F least = sizeof(F) == 4 ? F(0x1p-126f) : F(0x1p-1022); // its reciprocal is finite
+        if (sum < least && sum > -least)
             return false;
         sum = F(1) / sum;
         wa = a * sum > 0 ? a * sum : 0;
