@@ -245,7 +245,7 @@ TYPED_TEST(TextureTest, BrickIsCoursesAndJoints)
     int mortar = 0, brick = 0;
     everywhere<N>(87, [&](const Placing& at, const Vec3&, const Point<N>& q, const Vec<Real>& p) {
         Lattice<N> lattice = make_lattice<N>(at, 1.0 / 1024);
-        lattice.y = make_axis<N>(at, {0, 2, 0}, 1.0 / 1024, true);
+        lattice.y = make_step<N>(at, {0, 2, 0}, 1.0 / 1024);
         const Brick<N> texture{n<N>(), lattice};
         const Real e = texture_epsilon, course = 2 * p.y + e;
         const Real shift = is_odd(std::floor(course)) ? Real(1) / 2 : 0;

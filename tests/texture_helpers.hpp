@@ -22,10 +22,14 @@ LatticeAxis<N> make_axis(const Placing& at, const Vec3& along, double offset, bo
                                    at.scale, offset, wraps);
 }
 template <class N>
+LatticeStep<N> make_step(const Placing& at, const Vec3& along, double offset)
+{
+    return scene::Convert<N>::step(make_axis<N>(at, along, offset, true));
+}
+template <class N>
 Lattice<N> make_lattice(const Placing& at, double offset)
 {
-    return {make_axis<N>(at, {1, 0, 0}, offset, true), make_axis<N>(at, {0, 1, 0}, offset, true),
-            make_axis<N>(at, {0, 0, 1}, offset, true)};
+    return {make_step<N>(at, {1, 0, 0}, offset), make_step<N>(at, {0, 1, 0}, offset), make_step<N>(at, {0, 0, 1}, offset)};
 }
 template <class N>
 Vec<Real> texture_point(const Placing& at, const Point<N>& q)

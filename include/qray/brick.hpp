@@ -12,9 +12,9 @@ struct Brick {
 
     constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
     {
-        const Cell<N> course = lattice.y.cell(q);
-        const auto x = shifted(lattice.x.cell(q).inside, course.index);
-        const auto z = shifted(lattice.z.cell(q).inside, course.index);
+        const Cell<N> course = lattice.y.cell(q.y);
+        const auto x = shifted(lattice.x.cell(q.x).inside, course.index);
+        const auto z = shifted(lattice.z.cell(q.z).inside, course.index);
         const auto joint = part(16);
         return x < joint || z < joint || course.inside < part(8) ? colour : m;
     }

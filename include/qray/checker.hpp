@@ -12,7 +12,7 @@ struct Checker {
 
     constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
     {
-        const uint32_t cells = lattice.x.cell(q).index + lattice.y.cell(q).index + lattice.z.cell(q).index;
+        const uint32_t cells = lattice.x.cell(q.x).index + lattice.y.cell(q.y).index + lattice.z.cell(q.z).index;
         return cells & 1 ? colour : m;
     }
 };

@@ -150,10 +150,58 @@ private:
     }
 };
 
-// The three coordinates of a lattice.
+// The same of one coordinate alone, q: row q + offset.
+template <class N>
+struct LatticeStep;
+
+template <class N>
+    requires(N::is_fixed && !IsNarrow<N>)
+struct LatticeStep<N> {
+    int32_t row;
+    int32_t shift;
+    int64_t offset;
+
+    constexpr Cell<N> cell(typename N::Length q) const
+    {
+        const int64_t p = wide_mul(q.raw, row);
+        return LatticeAxis<N>::split((shift >= 0 ? static_cast<uint64_t>(p) << shift : static_cast<uint64_t>(p >> -shift))
+                                     + static_cast<uint64_t>(offset));
+    }
+};
+
+template <class N>
+    requires IsNarrow<N>
+struct LatticeStep<N> {
+    int32_t row;
+    int32_t frac;
+    int32_t offset;
+    int32_t whole;
+
+    constexpr Cell<N> cell(typename N::Length q) const
+    {
+        return LatticeAxis<N>{row, 0, 0, frac, offset, whole}.cell({q, N::length_zero, N::length_zero});
+    }
+};
+
+template <class N>
+    requires(!N::is_fixed)
+struct LatticeStep<N> {
+    using F = typename N::Length;
+    F row;
+    F inside;
+    uint32_t index;
+
+    constexpr Cell<N> cell(F q) const
+    {
+        const Cell<N> c = LatticeAxis<N>::split(row * q + inside);
+        return {c.index + index, c.inside};
+    }
+};
+
+// A lattice of cells along the axes of the scene.
 template <class N>
 struct Lattice {
-    LatticeAxis<N> x, y, z;
+    LatticeStep<N> x, y, z;
 };
 
 // sqrt(a^2 + b^2) of two bounded coordinates, plus epsilon: cell and place inside.

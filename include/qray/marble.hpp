@@ -22,7 +22,7 @@ struct Marble {
     constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
     {
         // The fraction of p.axis + 2 turbulence, octave by octave: whole turns do not matter.
-        Cell<N> x = lattice.x.cell(q), y = lattice.y.cell(q), z = lattice.z.cell(q);
+        Cell<N> x = lattice.x.cell(q.x), y = lattice.y.cell(q.y), z = lattice.z.cell(q.z);
         auto v = axis.cell(q).inside;
         const auto first = noise<N>(x, y, z);
         v = wrap(wrap(v + first) + first);

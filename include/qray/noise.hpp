@@ -12,7 +12,7 @@ struct Noise {
 
     constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
     {
-        return blend<N>(m, colour, noise<N>(lattice.x.cell(q), lattice.y.cell(q), lattice.z.cell(q)));
+        return blend<N>(m, colour, noise<N>(lattice.x.cell(q.x), lattice.y.cell(q.y), lattice.z.cell(q.z)));
     }
 };
 

@@ -14,7 +14,7 @@ struct Wood {
     constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
     {
         const Cell<N> ring = radial_cell<N>(across.bounded(q), along.bounded(q), false);
-        auto n = noise<N>(lattice.x.cell(q), lattice.y.cell(q), lattice.z.cell(q));
+        auto n = noise<N>(lattice.x.cell(q.x), lattice.y.cell(q.y), lattice.z.cell(q.z));
         if constexpr (N::is_fixed)
             n = typename N::Unit{n.raw >> 1};
         else

@@ -448,8 +448,9 @@ private:
         const auto axis = [&](const Vec3d& direction, double offset, bool wraps) {
             return Convert<N>::axis(direction * k, frame.origin, frame.scale, offset, wraps);
         };
+        const auto step = [&](const Vec3d& direction, double offset) { return Convert<N>::step(axis(direction, offset, true)); };
         const auto lattice = [&](double offset) {
-            return Lattice<N>{axis({1, 0, 0}, offset, true), axis({0, 1, 0}, offset, true), axis({0, 0, 1}, offset, true)};
+            return Lattice<N>{step({1, 0, 0}, offset), step({0, 1, 0}, offset), step({0, 0, 1}, offset)};
         };
         const auto ref = [](qray::TextureKind kind, uint32_t count) {
             return TextureRef{kind, static_cast<uint16_t>(count - 1)};
@@ -485,7 +486,7 @@ private:
         }
         case TextureKind::brick: {
             Lattice<N> l = lattice(epsilon);
-            l.y = axis({0, 2, 0}, epsilon, true);
+            l.y = step({0, 2, 0}, epsilon);
             s.bricks.push() = {n, l};
             return ref(qray::TextureKind::brick, s.bricks.count);
         }

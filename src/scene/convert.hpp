@@ -128,6 +128,18 @@ struct Convert {
         }
     }
 
+    // Of an axis along one coordinate.
+    static LatticeStep<N> step(const LatticeAxis<N>& a)
+    {
+        const auto row = a.row_x + a.row_y + a.row_z; // two of them are 0
+        if constexpr (IsNarrow<N>)
+            return {row, a.frac, a.offset, a.whole};
+        else if constexpr (N::is_fixed)
+            return {row, a.shift, a.offset};
+        else
+            return {row, a.inside, a.index};
+    }
+
     static Pencil<N> pencil(const Vec3d& d, double scale)
     {
         [[maybe_unused]] const auto whole = [](double v) { return static_cast<decltype(Pencil<N>::x)>(llrint(v)); };

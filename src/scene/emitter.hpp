@@ -91,7 +91,7 @@ private:
     template <class F>
     void tables(F f) const
     {
-        constexpr const char* lattice = "colour; x, y, z coordinate: row x, y, z, shift, offset";
+        constexpr const char* lattice = "colour; x, y, z coordinate: row, shift, offset";
         const auto table = [&f](bool present, const auto& array, const char* type, const char* name,
                                 const char* fields) {
             if (present && array.count != 0)
@@ -278,6 +278,19 @@ private:
         } else {
             const auto& [x, y, z, inside, index, offset] = v;
             list(x, y, z, inside, index, offset);
+        }
+    }
+    void value(const LatticeStep<N>& v)
+    {
+        if constexpr (IsNarrow<N>) {
+            const auto& [row, frac, offset, whole] = v;
+            list(row, frac, offset, whole);
+        } else if constexpr (N::is_fixed) {
+            const auto& [row, shift, offset] = v;
+            list(row, shift, offset);
+        } else {
+            const auto& [row, inside, index] = v;
+            list(row, inside, index);
         }
     }
     void value(const Lattice<N>& v)
