@@ -175,6 +175,13 @@ class CheckElf(unittest.TestCase):
         self.expect("library is not for q32", "double", "",
                     "volatile double x = 3; return int(x * x / 7 + x);")
 
+    # A compiler loads and stores several words of its frame at once.
+    def test_words_at_the_stack_pointer(self):
+        for board in ("mps2_an385", "mps2_an386"):
+            faults = self.faults(board, "words", "", 'asm volatile("ldmia sp, {r0, r1}\\n stmia sp, {r0, r1}" '
+                                 '::: "r0", "r1", "memory"); return 0;')[1]
+            self.assertEqual(faults, [])
+
     def test_frame_of_no_fixed_size(self):
         self.expect("no fixed size|unknown amount|from a register", "alloca", "",
                     "auto* a = static_cast<volatile char*>(__builtin_alloca(board::reg(0x4000'0000)));"

@@ -185,7 +185,7 @@ class Program:
             if re.match(r"sp, (?!sp|#)\w+, ", ops):
                 self.problem(i, "stack pointer from a register")
             i.move = amount if name.startswith("sub") else -amount
-        elif re.match(r"(sp$|sp,)", ops) and not re.match(r"(str|cmp|tst)", name):
+        elif re.match(r"(sp$|sp,)", ops) and not re.match(r"(str|cmp|tst|v?ldm|v?stm)", name):
             self.problem(i, "stack pointer from a register")
         if conditional:
             i.move = max(i.move, 0)
