@@ -1,10 +1,6 @@
 # Arm MPS2 with AN386: Cortex-M4 at 25 MHz with a single-precision FPU, 4 MB for code, 4 MB of RAM.
 BOARD_TOOLS    := arm-none-eabi-
 BOARD_CPU      := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard
-# Tuned for the M4, GCC keeps a product and its sum apart: in cycles vmla costs as much. It rounds the product too.
-ifeq ($(NUMBER),float)
-BOARD_CPU      += -mtune=cortex-a5
-endif
 BOARD_OPTIMISE := -O2
 BOARD_CORE     := cortex_m
 BOARD_COUNTER  := host_systick
