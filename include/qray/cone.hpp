@@ -98,7 +98,7 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
         if (along_generator) {
             bool real = N::small_discriminant(half_b, a, c, root);
             Length deepest{};
-            if (!real && leaving != Leaves::inward && N::quotient(-half_b, a, k, deepest) && deepest <= s.bound
+            if (!real && leaving != Leaves::inward && k >= 0 && N::quotient(-half_b, a, k, deepest) && deepest <= s.bound
                 && -deepest <= s.bound) {
                 deepest = N::coarse(deepest, k);
                 const Length r = rho + N::length(deepest * ds), small = N::coarse(rho, 2);
