@@ -92,7 +92,8 @@ private:
     }
 
     using Bounds = BoundedRay<N>;
-    static constexpr double length = Bounds::length, reach = length * Bounds::unit;
+    static constexpr double length = static_cast<double>(Bounds::length);
+    static constexpr double reach = length * static_cast<double>(Bounds::unit);
 
     // What the block's ball number i bounds; a radius below 0 if it is none.
     static Ball ball(const BallBlock& b, int i)
