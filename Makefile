@@ -54,7 +54,7 @@ render: build/qray
 UNIT    := $(patsubst tests/%.cpp,%,$(wildcard tests/test_*.cpp))
 FAST    := test_hostile test_math test_meshes test_metamorphic
 SCRIPTS := $(wildcard tests/test_*.py tests/test_*.sh tests/*/test_*.py tests/*/test_*.sh)
-TESTS      = $(SCRIPTS) $(addprefix build/sanitized/tests/,$(UNIT)) $(addprefix build/tests/,$(FAST))
+TESTS      = $(SCRIPTS) $(addprefix build/tests/,$(FAST)) $(addprefix build/sanitized/tests/,$(UNIT))
 TEST_NEEDS = build/qray build/sanitized/qray build/oracle $(VARIANTS:%=build/variants/%/qray)
 TEST_LIBS := -lgtest -lgtest_main -lquadmath -pthread
 

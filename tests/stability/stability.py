@@ -124,9 +124,9 @@ def sentences(results):
     behind = [f"{s}, {r}" for s in SHAPES for r in regimes(s)
               if results.share(s, "q32", r, "ours") > results.share(s, "float", r, "ours")]
     out.append(f"`q32` is wrong more often than `float` in {'; '.join(behind) or 'no row'}.")
-    if all(results.share(s, n, "needle", "ours") == 0 for s in FIGURES for n in ("q32", "q16")):
-        out[-1] += (" On which side of an edge a ray passes, `q16` and `q32` know exactly, however thin the "
-                    "figure: where 64 bits leave it open, 128 decide.")
+    if all(results.share(s, "q32", r, "ours") == 0 for s in FIGURES for r in regimes(s)):
+        out[-1] += (" On which side of an edge a ray passes it knows exactly, however thin the figure: where 64 "
+                    "bits leave it open, 128 decide.")
     rebounds = results.total("rebounds", "ours")
     selfs, leaks = results.total("self-hits", "ours"), results.total("leaks", "ours")
     found = [f"{results.rate('self-hits', n)} ({book})" for n, book in NUMBERS.items()]
