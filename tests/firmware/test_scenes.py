@@ -33,12 +33,13 @@ def budgets():
 
 
 def images():
-    """What is built and run: all that has a budget, each scene in q32 on the microbit and on another board, and
-    in float or q16 on one."""
+    """What is built and run: all that has a budget, each scene in q32 on the microbit, and in q32 on another board or in
+    float or q16 on one, by turns."""
     chosen = set(budgets())
     for k, scene in enumerate(scenes()):
-        chosen |= {("microbit", scene, "q32"), (BOARDS[1 + k % 4], scene, "q32")}
-        chosen.add((BOARDS[k % 5], scene, ("float", "q16")[k % 2]))
+        chosen.add(("microbit", scene, "q32"))
+        chosen.add((BOARDS[1 + k // 2 % 4], scene, "q32") if k % 2 == 0 else
+                   (BOARDS[k // 2 % 5], scene, ("float", "q16")[k // 2 % 2]))
         if ALL:
             chosen |= {(board, scene, number) for board in BOARDS for number in ("q16", "q32", "float")}
     return sorted(chosen)

@@ -67,7 +67,7 @@ def compile_scene(name, absent, include):
     environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
     result = subprocess.run(
         ["make", "--no-print-directory", "-o", "build/qray", path, "BOARD=microbit", f"NAME=zero_{name}",
-         f"SCENE={FOLDER}/{name}.nff", f"FW_INCLUDE={include}", *sampling],
+         f"SCENE={FOLDER}/{name}.nff", f"FW_INCLUDE={include}", "FW_EXTRA=-g0", *sampling],
         env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if result.returncode != 0:
         return result.stdout
