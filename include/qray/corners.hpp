@@ -27,6 +27,8 @@ struct Sheared<N> {
 
 template <class N>
 struct Shear {
+    static constexpr bool is_wide_fixed = N::is_fixed && !IsNarrow<N>;
+
     int axis; // the dominant axis of the direction: 0, 1, 2
     typename N::Unit dx, dy, dz; // the direction, that axis last
 
@@ -69,13 +71,11 @@ struct Shear {
     }
     // The sign of the exact edge(a, b).
     QRAY_NOINLINE constexpr int edge_sign(const Point<N>& a, const Point<N>& b) const
-        requires(N::is_fixed && !IsNarrow<N>)
+        requires is_wide_fixed
     {
         const Moments m = exact(a), n = exact(b);
         return compare_products(m.x.raw, n.y.raw, n.x.raw, m.y.raw);
     }
-
-    static constexpr bool is_wide_fixed = N::is_fixed && !IsNarrow<N>;
 
 private:
     struct Moments {
@@ -115,7 +115,8 @@ QRAY_INLINE constexpr bool crosses(const Sheared<N>& a, const Sheared<N>& b, [[m
         if (a.x > o && b.x > o)
             return true;
         // Each coordinate is less than 1 too low, which is worth less than it and 1 in a product.
-        const int64_t margin = int64_t{N::magnitude(a.x.raw) | N::magnitude(a.y.raw) | N::magnitude(b.x.raw) | N::magnitude(b.y.raw)} * 4 + 2;
+        const int64_t margin = int64_t{N::magnitude(a.x.raw) | N::magnitude(a.y.raw)
+                                       | N::magnitude(b.x.raw) | N::magnitude(b.y.raw)} * 4 + 2;
         const int64_t e = edge<N>(a, b).raw;
         if (e > margin || e < -margin)
             return (e > 0) == up;
