@@ -159,22 +159,11 @@ constexpr uint32_t isqrt(uint32_t x)
     return root;
 }
 
-namespace detail {
-
-// The mantissa above the exponent: two registers, where a struct would be returned in memory.
-QRAY_SHARED constexpr uint64_t rsqrt_packed(uint64_t x)
-{
-    Normal v = normalise_even(x);
-    return uint64_t{rsqrt_mantissa(v.high, v.low)} << 32 | static_cast<uint32_t>(v.half - 63);
-}
-
-} // namespace detail
-
 // 1 / sqrt(x), relative error at most 2^-31.7 (1.2 ulp of the mantissa). x = 0 is taken for 1.
 constexpr Scaled rsqrt(uint64_t x)
 {
-    uint64_t packed = detail::rsqrt_packed(x);
-    return {static_cast<uint32_t>(packed >> 32), static_cast<int32_t>(static_cast<uint32_t>(packed))};
+    const detail::Normal v = detail::normalise_even(x);
+    return {detail::rsqrt_mantissa(v.high, v.low), v.half - 63};
 }
 
 namespace detail {

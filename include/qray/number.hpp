@@ -23,8 +23,9 @@ struct FixedScale {
 
 template <int LengthFrac, int UnitFrac, int ColourFrac, int Bits>
 struct FixedSystem {
+    static_assert(Bits == 32 && UnitFrac == 30); // as unit_vector() has; for 16 bits: q16.hpp
     static constexpr bool is_fixed = true;
-    static constexpr bool is_wide = Bits == 32; // products take two registers on a 32-bit machine
+    static constexpr bool is_wide = true; // products take two registers on a 32-bit machine
     using Length = Fixed<LengthFrac, Bits>;
     using Unit = Fixed<UnitFrac, Bits>;
     using Colour = Fixed<ColourFrac, Bits>;
@@ -55,20 +56,12 @@ struct FixedSystem {
     QRAY_INLINE static constexpr Wide<A + B, Bits> dot(Fixed<A, Bits> ax, Fixed<A, Bits> ay, Fixed<A, Bits> az,
                                                        Fixed<B, Bits> bx, Fixed<B, Bits> by, Fixed<B, Bits> bz)
     {
-        if constexpr (Bits == 32)
-            return {wide_dot(ax.raw, ay.raw, az.raw, bx.raw, by.raw, bz.raw)};
-        else
-            return {ax.raw * bx.raw + ay.raw * by.raw + az.raw * bz.raw};
+        return {wide_dot(ax.raw, ay.raw, az.raw, bx.raw, by.raw, bz.raw)};
     }
     QRAY_INLINE static constexpr Area norm2(Length x, Length y, Length z)
     {
-        if constexpr (Bits == 32)
-            return {static_cast<int64_t>(wide_norm2(x.raw, y.raw, z.raw))};
-        else
-            return {x.raw * x.raw + y.raw * y.raw + z.raw * z.raw};
+        return {static_cast<int64_t>(wide_norm2(x.raw, y.raw, z.raw))};
     }
-
-    QRAY_INLINE static constexpr Unit absolute(Unit v) { return {v.raw < 0 ? -v.raw : v.raw}; }
 
     // a - b, clamped to the range of Length.
     QRAY_INLINE static constexpr Length saturating_sub(Length a, Length b)
@@ -85,13 +78,8 @@ struct FixedSystem {
     // that the difference is small enough.
     QRAY_INLINE static constexpr Length fine_sub(Moment a, Length b, int32_t fine)
     {
-        using Rep = typename Moment::Rep;
-        const int32_t down = UnitFrac - fine;
-        const Rep w = a.raw - (Rep{b.raw} * (Rep{1} << UnitFrac));
-        if constexpr (Bits == 32)
-            return {rounding_shift(w, down)};
-        else
-            return {(w + (Rep{1} << (down - 1))) >> down};
+        const int64_t w = a.raw - (int64_t{b.raw} * (int64_t{1} << UnitFrac));
+        return {rounding_shift(w, UnitFrac - fine)};
     }
     // What rounding took off: (a - b) 2^fine, rounded down, for b = length(a).
     QRAY_INLINE static constexpr Length fine_rest(Moment a, Length b, int32_t fine)
@@ -108,20 +96,8 @@ struct FixedSystem {
     QRAY_INLINE static constexpr Length coarse_above(Length a, int32_t fine) { return {(a.raw >> fine) + 3}; }
 
     // Square roots to the nearest; the radicand must not be negative.
-    static constexpr Length sqrt(Area a)
-    {
-        if constexpr (Bits == 32)
-            return {static_cast<int32_t>(isqrt(static_cast<uint64_t>(a.raw)))};
-        else
-            return {static_cast<int32_t>(isqrt(static_cast<uint32_t>(a.raw)))};
-    }
-    static constexpr Unit sqrt_unit(Cosine a)
-    {
-        if constexpr (Bits == 32)
-            return {static_cast<int32_t>(isqrt(static_cast<uint64_t>(a.raw)))};
-        else
-            return {static_cast<int32_t>(isqrt(static_cast<uint32_t>(a.raw)))};
-    }
+    static constexpr Length sqrt(Area a) { return {static_cast<int32_t>(isqrt(static_cast<uint64_t>(a.raw)))}; }
+    static constexpr Unit sqrt_unit(Cosine a) { return {static_cast<int32_t>(isqrt(static_cast<uint64_t>(a.raw)))}; }
 
     // sqrt(b^2 - a c) for |a| < 1/8, |b| < 2^8, |c| < 2^14, or false where that is negative. Block-scaled: b to 30 bits,
     // a and c to 61 together, the longer of them first.
@@ -183,34 +159,15 @@ struct FixedSystem {
         return t.raw != INT32_MAX && t.raw != -INT32_MAX;
     }
 
-    // The direction (x, y, z), of any length but 0, as a unit vector: each component within 1 ulp (0.81 in q32). False for 0.
+    // The direction (x, y, z), of any length but 0, as a unit vector: each component within 0.81 ulp. False for 0.
     static constexpr bool normalise(int32_t x, int32_t y, int32_t z, Unit& ux, Unit& uy, Unit& uz)
     {
-        if constexpr (Bits == 32) {
-            int32_t u[3]{};
-            if (!unit_vector(x, y, z, u))
-                return false;
-            ux = {u[0]};
-            uy = {u[1]};
-            uz = {u[2]};
-            return true;
-        }
-        const uint32_t m = magnitude(x) | magnitude(y) | magnitude(z);
-        if (m == 0)
+        int32_t u[3]{};
+        if (!unit_vector(x, y, z, u))
             return false;
-        const int up = count_leading_zeros(m) - 1; // the largest component in [2^30, 2^31)
-        x = shift_left(x, up);
-        y = shift_left(y, up);
-        z = shift_left(z, up);
-        // 1/length, in (2^-32, 2^-30], as scale 2^-61 or, where it is less than 2^-31, as scale 2^-62
-        const Scaled r = rsqrt(wide_norm2(x, y, z));
-        const bool low = r.exponent < -62;
-        uint32_t scale = (r.mantissa >> 1) + (r.mantissa & 1);
-        if (r.exponent > -62 || scale > 0x7fffffffu)
-            scale = 0x7fffffffu;
-        ux = narrow_unit(x, static_cast<int32_t>(scale), low);
-        uy = narrow_unit(y, static_cast<int32_t>(scale), low);
-        uz = narrow_unit(z, static_cast<int32_t>(scale), low);
+        ux = {u[0]};
+        uy = {u[1]};
+        uz = {u[2]};
         return true;
     }
     template <int F>
@@ -364,15 +321,6 @@ private:
             return static_cast<int32_t>(static_cast<uint64_t>(v) << up >> 32);
         const uint32_t high = static_cast<uint32_t>(static_cast<uint64_t>(v) >> 32), low = static_cast<uint32_t>(v);
         return static_cast<int32_t>((high << up) | (low >> 1 >> (31 - up)));
-    }
-
-    // c scale 2^-31, or 2^-32, to the nearest.
-    QRAY_INLINE static constexpr Unit narrow_unit(int32_t c, int32_t scale, bool low)
-    {
-        constexpr int down = 61 - UnitFrac;
-        const int64_t p = wide_mul(c, scale) + (low ? int64_t{1} << down : int64_t{1} << (down - 1));
-        const int32_t v = static_cast<int32_t>(p >> down);
-        return {low ? v >> 1 : v};
     }
 };
 
