@@ -1,4 +1,4 @@
-// Adaptive sampling against coverages and counts worked out by hand from IMAGE section 5.
+// Adaptive sampling against coverages and counts worked out by hand from scenes/README.md, section 5.
 #include "scene_helpers.hpp"
 
 #include <qray/adaptive.hpp>

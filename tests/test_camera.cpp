@@ -33,7 +33,7 @@ Camera<N> make_camera(uint16_t width, uint16_t height, uint16_t grid, double h)
             width, height, grid};
 }
 
-// IMAGE section 2, for sample offset (a, b) of pixel (i, j).
+// scenes/README.md, section 2, for sample offset (a, b) of pixel (i, j).
 Vec3 expected(int i, int j, double a, double b, int width, int height, double h)
 {
     const double x = h * width / height * (2 * (i + a) / width - 1), y = h * (1 - 2 * (j + b) / height);

@@ -215,7 +215,7 @@ TYPED_TEST(NumberTest, BentScalesByARatioOfIndicesAndIsClampedAboveOne)
             if (std::fabs(exact) <= 1.25 || !N::is_fixed)
                 EXPECT_EQ(got, exact);
             else
-                EXPECT_EQ(got, std::copysign(1.25, exact)); // IMAGE: more than 1 is total reflection, by how much is of no use
+                EXPECT_EQ(got, std::copysign(1.25, exact)); // beyond 1 is total reflection, by how much is of no use
         }
     Random random(15);
     for (int i = 0; i < 2000; i++) {

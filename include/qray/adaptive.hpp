@@ -1,6 +1,6 @@
-// Adaptive sampling (IMAGE section 5): a pixel is cut in four, and a quarter that stands out from the other
-// three is cut in four in turn. At least 4 samples a pixel, at most 4 + 4^2 + ... + 4^levels. Only their sum is
-// kept.
+// Adaptive sampling (scenes/README.md, section 5): a pixel is cut in four, and a quarter that stands out from the
+// other three is cut in four in turn. At least 4 samples a pixel, at most 4 + 4^2 + ... + 4^levels. Only their sum
+// is kept.
 #pragma once
 
 #include "sampler.hpp"

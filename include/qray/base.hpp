@@ -2,7 +2,7 @@
 //
 // Integer products wider than a register, count of leading zeros, correctly rounded square roots of
 // binary32 and binary64, inlining. Every function gives the same bits on every target, in a constant
-// expression too. All are total: no argument is forbidden, except where wide_dot says so.
+// expression too. An argument is forbidden only where a function says so.
 #pragma once
 
 #include <stddef.h>
@@ -227,7 +227,7 @@ QRAY_INLINE constexpr int32_t signed_mul_high(int32_t a, int32_t b)
     return static_cast<int32_t>((int64_t{a} * b) >> 32);
 }
 
-// The upper 32 bits of ax bx + ay by + az bz, up to 3 too low. Only where has_wide_multiply.
+// The upper 32 bits of ax bx + ay by + az bz, which fits int64_t, up to 3 too low. Only where has_wide_multiply.
 QRAY_INLINE constexpr int32_t high_dot(int32_t ax, int32_t ay, int32_t az, int32_t bx, int32_t by, int32_t bz)
 {
 #if defined(__thumb2__)
@@ -440,7 +440,7 @@ constexpr Bits sqrt_bits(Bits x)
 
 } // namespace detail
 
-// Square root, correctly rounded (nearest), without errno: the processor's where it has one, else in
+// Square roots, correctly rounded (nearest), without errno: the processor's where it has one, else in
 // integers. Infinity gives infinity; a negative x, either zero and NaN give +0.
 constexpr float sqrt_float(float x)
 {
@@ -510,6 +510,7 @@ QRAY_INLINE uint32_t mask_bits(Mask4 m)
 #endif
 }
 
+// The number of the lowest bit that is set, for x > 0.
 constexpr uint32_t lowest_bit(uint32_t x)
 {
     return static_cast<uint32_t>(__builtin_ctz(x));

@@ -174,6 +174,7 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
     return valid[0] || valid[1];
 }
 
+// The nearest t in (0, limit], or false.
 template <bool Near = false, class N>
 constexpr bool intersect(const Cone<N>& s, const Ray<N>& ray, typename N::Length limit, typename N::Length& t,
                          Local<N>& local)
@@ -186,6 +187,7 @@ constexpr bool intersect(const Cone<N>& s, const Ray<N>& ray, typename N::Length
     return true;
 }
 
+// How often the ray crosses the frustum strictly between its origin and a light at `distance`: 0, 1 or 2.
 template <bool Near = false, class N>
 constexpr int crossings(const Cone<N>& s, const Ray<N>& ray, typename N::Length distance)
 {

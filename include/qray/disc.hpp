@@ -1,5 +1,5 @@
-// Flat disc; and plane, which by IMAGE's definition ends at a distance `far` from the centre of the scene: it is
-// the disc of radius sqrt(far^2 - h^2) around the foot of that centre, and is stored as one.
+// Flat disc; and plane, which ends at a distance `far` from the centre of the scene (scenes/README.md, Planes): it is
+// the disc of radius sqrt(far^2 - h^2) around the foot of that centre, h away from it, and is stored as one.
 #pragma once
 
 #include "narrow.hpp"
@@ -21,6 +21,7 @@ QRAY_INLINE constexpr bool surely_missed(const Disc<N>& s, const NarrowRay<N>& n
     return narrow.misses_plane(s.centre, s.normal);
 }
 
+// t in (0, limit], or false. The disc that the ray starts on does not count.
 template <class N>
 QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typename N::Length limit,
                                      typename N::Length& t)
@@ -39,11 +40,12 @@ QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typena
     return !beyond<N>(w, r);
 }
 
+// How often the ray crosses the disc strictly between its origin and a light at `distance`: 0 or 1.
 template <class N>
-QRAY_INLINE constexpr int crossings(const Disc<N>& s, const Ray<N>& ray, typename N::Length limit)
+QRAY_INLINE constexpr int crossings(const Disc<N>& s, const Ray<N>& ray, typename N::Length distance)
 {
     typename N::Length t{};
-    return intersect(s, ray, limit, t) && before_light<N>(s.normal, ray, t, limit);
+    return intersect(s, ray, distance, t) && before_light<N>(s.normal, ray, t, distance);
 }
 
 template <class N>

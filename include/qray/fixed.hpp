@@ -1,6 +1,7 @@
-// Fixed-point numbers: Fixed<Frac, Bits> is a signed Bits-wide number in Q-format with Frac fractional
-// bits; Wide<Frac, Bits> holds the exact product of two of them, or a sum of such products, in twice
-// the width. A chain of products is summed in Wide and rounded once, to nearest, ties upward.
+// Fixed-point numbers: Fixed<Frac, Bits> is a signed number in Q-format with Frac fractional bits, kept in 32;
+// Wide<Frac, Bits> holds the exact product of two of them, or a sum of such products, in 2 Bits. Where Bits is 16 a
+// product's factors share the 31 bits beside its sign (q16.hpp says how). A chain of products is summed in Wide and
+// rounded once, to nearest, ties upward.
 //
 // Nothing here checks for overflow: every caller states why its values fit, or uses saturating_*.
 #pragma once
@@ -77,7 +78,7 @@ QRAY_INLINE constexpr To round_to(Wide<Frac, Bits> w)
         return {(w.raw + (int32_t{1} << (shift - 1))) >> shift};
 }
 
-// a - b and a + b, clamped to the range of 32 bits.
+// a - b and a + b; what does not fit 32 bits gives +-(2^31 - 1).
 constexpr int32_t saturating_sub(int32_t a, int32_t b)
 {
     int32_t r = 0;

@@ -10,7 +10,7 @@ namespace qray {
 template <class N>
 struct Light {
     Point<N> at;
-    int32_t shift; // >= 0; 0 in floating point
+    int32_t shift; // in [0, 30]; 0 in floating point
     Rgb<N> colour;
 };
 

@@ -5,7 +5,7 @@
 
 namespace qray {
 
-// Calls f(shape, kind, index) for every shape.
+// Calls f(shape, kind, index) for every shape, until it returns true.
 template <class N, Effects E, class F>
 QRAY_INLINE constexpr void for_each_shape(const Scene<N, E>& scene, F f)
 {
@@ -98,6 +98,7 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
     }
 }
 
+// The nearest hit; of several at the same t, that of the first surface in the file. False where there is none.
 template <class N, Effects E>
 QRAY_INLINE constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit)
 {

@@ -346,7 +346,7 @@ struct FloatSystem {
     static constexpr F one = 1;
     static constexpr F zero = 0;
     static constexpr F black = 0;
-    static constexpr F ulp = F(64) * epsilon;
+    static constexpr F ulp = F(64) * epsilon; // of the longest distances, up to 124
     static constexpr F least_square = sizeof(F) == 4 ? F(0x1p-100f) : F(0); // a sum of squares above it has all its bits
 
     QRAY_INLINE static constexpr F length(F v) { return v; }

@@ -21,6 +21,7 @@ QRAY_INLINE constexpr bool surely_missed(const Patch<N>& s, const NarrowRay<N>& 
     return narrow.misses_ball(s.middle, s.bound);
 }
 
+// t in (0, limit], or false. The triangle that the ray starts on does not count.
 template <class N>
 constexpr bool intersect(const Patch<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length limit,
                          typename N::Length& t)
@@ -33,11 +34,12 @@ constexpr bool intersect(const Patch<N>& s, const Point<N>* vertices, const Ray<
     return intersect_corners<N>(s.normal, 3, corner, ray, limit, t);
 }
 
+// How often the ray crosses it strictly between its origin and a light at `distance`: 0 or 1.
 template <class N>
-constexpr int crossings(const Patch<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length limit)
+constexpr int crossings(const Patch<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length distance)
 {
     typename N::Length t{};
-    return intersect(s, vertices, ray, limit, t) && before_light<N>(s.normal, ray, t, limit);
+    return intersect(s, vertices, ray, distance, t) && before_light<N>(s.normal, ray, t, distance);
 }
 
 // The shading normal where the ray meets the triangle: unit, not yet turned; g where the blend vanishes.
@@ -56,9 +58,10 @@ constexpr Direction<N> shading_normal(const Patch<N>& s, const Point<N>* vertice
         const Direction<N>& na = normals[s.first];
         const Direction<N>& nb = normals[s.second];
         const Direction<N>& nc = normals[s.second + 1];
-        normalise_short<N>(Vec<typename N::Cosine>{wa * na.x + wb * nb.x + wc * nc.x, wa * na.y + wb * nb.y + wc * nc.y,
-                                             wa * na.z + wb * nb.z + wc * nc.z},
-                     n);
+        using Blend = Vec<typename N::Cosine>;
+        normalise_short<N>(Blend{wa * na.x + wb * nb.x + wc * nc.x, wa * na.y + wb * nb.y + wc * nc.y,
+                                 wa * na.z + wb * nb.z + wc * nc.z},
+                           n);
     }
     return n;
 }

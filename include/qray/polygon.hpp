@@ -21,6 +21,7 @@ QRAY_INLINE constexpr bool surely_missed(const Polygon<N>& s, const NarrowRay<N>
     return narrow.misses_ball(s.middle, s.bound);
 }
 
+// t in (0, limit], or false. The polygon that the ray starts on does not count.
 template <class N>
 constexpr bool intersect(const Polygon<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length limit,
                          typename N::Length& t)
@@ -32,11 +33,12 @@ constexpr bool intersect(const Polygon<N>& s, const Point<N>* vertices, const Ra
     return intersect_corners<N>(s.normal, s.count, corner, ray, limit, t);
 }
 
+// How often the ray crosses it strictly between its origin and a light at `distance`: 0 or 1.
 template <class N>
-constexpr int crossings(const Polygon<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length limit)
+constexpr int crossings(const Polygon<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length distance)
 {
     typename N::Length t{};
-    return intersect(s, vertices, ray, limit, t) && before_light<N>(s.normal, ray, t, limit);
+    return intersect(s, vertices, ray, distance, t) && before_light<N>(s.normal, ray, t, distance);
 }
 
 template <class N>

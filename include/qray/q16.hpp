@@ -347,7 +347,6 @@ private:
     }
 };
 
-// World, in scene units after the builder's scale, that number systems of this kind can hold: 62.5.
 using q16 = FixedSystem<10, 14, 13, 16>;
 
 } // namespace qray

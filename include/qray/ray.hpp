@@ -8,7 +8,7 @@ namespace qray {
 template <class N>
 using Point = Vec<typename N::Length>;
 template <class N>
-using Direction = Vec<typename N::Unit>; // unit length within 2^-29 in q32
+using Direction = Vec<typename N::Unit>; // unit: its length is 1 within 2^-29 in q32, 2^-12 in q16
 template <class N>
 using Rgb = Vec<typename N::Colour>;
 

@@ -44,8 +44,8 @@ constexpr void render_row(const Scene<N, E>& scene, uint32_t j, uint8_t* out)
     render_row<Format>(scene, j, out, none);
 }
 
-// All rows from the top, through the caller's buffer of `rows` rows, to sink(first_row, rows, bytes, byte_count), which returns
-// false to stop. False if it did.
+// All rows from the top, through the caller's buffer of `rows` rows, 1 or more, to
+// sink(first_row, rows, bytes, byte_count), which returns false to stop. False if it did.
 template <class Format, class N, Effects E, class Sink, class Count>
 constexpr bool render(const Scene<N, E>& scene, uint8_t* buffer, uint32_t rows, Sink&& sink, Count& count)
 {

@@ -1,4 +1,4 @@
-// Pixels from samples: IMAGE section 5.
+// Pixels from samples (scenes/README.md, section 5).
 #pragma once
 
 #include "trace.hpp"
@@ -25,7 +25,7 @@ struct Sample {
         if constexpr (IsNarrow<N>)
             return static_cast<uint8_t>((v * 255 + (one >> 1)) >> frac);
         else
-            return static_cast<uint8_t>((wide_mul(v + 4, uint32_t{255}) + (one >> 1)) >> 28);
+            return static_cast<uint8_t>((wide_mul(v + 4, uint32_t{255}) + (one >> 1)) >> frac);
     }
 };
 template <class N>

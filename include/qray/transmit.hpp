@@ -12,8 +12,9 @@ struct Transmit {
     typename N::Eta out;   // ior
 };
 
-// With n turned against d: e = eta (d - (d.n) n), refracted = e - sqrt(1 - |e|^2) n. That is IMAGE's formula with
-// the cancellation at steep angles taken out. False where |e| > 1: total internal reflection.
+// With n turned against d: e = eta (d - (d.n) n), refracted = e - sqrt(1 - |e|^2) n, made unit: the
+// formula of scenes/README.md, section 3, without its cancellation at steep angles. False where |e| > 1: total
+// internal reflection.
 template <class N>
 constexpr bool refracted(const Direction<N>& d, const Direction<N>& n, typename N::Unit n_d, typename N::Eta eta,
                          Direction<N>& out)

@@ -1,4 +1,4 @@
-// Value noise: IMAGE section 4. For the noise texture, marble and wood.
+// Value noise (scenes/README.md, section 4). For the noise texture, marble and wood.
 #pragma once
 
 #include "lattice.hpp"

@@ -9,11 +9,11 @@ template <class N>
 struct Wood {
     Vec<typename N::Unit> colour; // N
     Lattice<N> lattice;
-    LatticeAxis<N> across, along; // two axes across the grain
+    LatticeAxis<N> e1, e2; // across the grain
 
     constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
     {
-        const Cell<N> ring = radial_cell<N>(across.bounded(q), along.bounded(q), false);
+        const Cell<N> ring = radial_cell<N>(e1.bounded(q), e2.bounded(q), false);
         auto n = noise<N>(lattice.x.cell(q.x), lattice.y.cell(q.y), lattice.z.cell(q.z));
         if constexpr (N::is_fixed)
             n = typename N::Unit{n.raw >> 1};
