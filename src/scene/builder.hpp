@@ -54,6 +54,13 @@ inline void add_object(Box& box, const Description& d, const Object& o)
     }
 }
 
+// A unit vector across the unit vector n.
+inline Vec3d unit_across(const Vec3d& n)
+{
+    const double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
+    return unit(cross(x <= y && x <= z ? Vec3d{1, 0, 0} : y <= z ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1}, n));
+}
+
 // A cone's ball: around the middle of the axis, through the wider rim.
 inline double cone_bound(const Object& o)
 {
@@ -149,7 +156,6 @@ private:
         s.marbles.count = s.woods.count = s.bricks.count = 0;
         s.lights.count = s.suns.count = 0;
         s.vanished = 0;
-        place = 0;
     }
 
     Frame fit() const
@@ -282,10 +288,7 @@ private:
             s.vanished++;
             return;
         }
-        const Vec3d other = fabs(axis.x) <= fabs(axis.y) && fabs(axis.x) <= fabs(axis.z) ? Vec3d{1, 0, 0}
-            : fabs(axis.y) <= fabs(axis.z)                                               ? Vec3d{0, 1, 0}
-                                                                                         : Vec3d{0, 0, 1};
-        const Vec3d e1 = unit(cross(other, axis)), e2 = cross(axis, e1);
+        const Vec3d e1 = unit_across(axis), e2 = cross(axis, e1);
         const int fine = fine_for(cone_bound(o), cone_world);
         const double up = ldexp(1, fine);
         s.cones.push() = {point((o.a + o.b) * 0.5),
@@ -302,21 +305,25 @@ private:
                           Convert<N>::rounded(frame.point((o.a + o.b) * 0.5), fine)};
     }
 
-    // The ball around the middle of the box of some corners.
-    void ball(const Vec3d* const* corners, uint32_t count, Point<N>& middle, typename N::Length& r) const
+    // The ball around the middle of the box of corner(0) to corner(count - 1).
+    struct CornerBall {
+        Point<N> middle;
+        typename N::Length radius;
+    };
+    template <class Corner>
+    CornerBall ball(uint32_t count, Corner corner) const
     {
         Box box;
         for (uint32_t i = 0; i < count; i++)
-            box.add(*corners[i]);
+            box.add(corner(i));
         const Vec3d centre = (box.low + box.high) * 0.5;
         double far = 0;
         for (uint32_t i = 0; i < count; i++)
-            far = fmax(far, length(*corners[i] - centre));
-        middle = point(centre);
-        r = bound(far);
+            far = fmax(far, length(corner(i) - centre));
+        return {point(centre), bound(far)};
     }
 
-    // Does a figure still span more than a line once its corners are rounded? Corners that all fall on one point do not.
+    // Do rounded corners not all fall on one point?
     static bool spans(const Point<N>* corners, uint32_t count)
     {
         for (uint32_t i = 1; i < count; i++)
@@ -355,14 +362,8 @@ private:
             s.vanished++;
             return;
         }
-        Box box;
-        for (uint32_t i = 0; i < o.count; i++)
-            box.add(v[i]);
-        const Vec3d centre = (box.low + box.high) * 0.5;
-        double far = 0;
-        for (uint32_t i = 0; i < o.count; i++)
-            far = fmax(far, length(v[i] - centre));
-        s.polygons.push() = {Convert<N>::direction(unit(g)), point(centre), bound(far), first, o.count, tag};
+        const CornerBall around = ball(o.count, [v](uint32_t i) { return v[i]; });
+        s.polygons.push() = {Convert<N>::direction(unit(g)), around.middle, around.radius, first, o.count, tag};
     }
 
     void patch(const Object& o)
@@ -375,18 +376,18 @@ private:
         for (uint32_t i = 0; i < o.count; i++)
             s.normals.push() = Convert<N>::direction(d.normals[o.vertex + i] * (1 / longest));
         for (uint32_t i = 1; i + 1 < o.count; i++, place++) {
-            const Vec3d* corners[3] = {d.vertices + o.vertex, d.vertices + o.vertex + i, d.vertices + o.vertex + i + 1};
-            const Vec3d g = cross(*corners[1] - *corners[0], *corners[2] - *corners[1]);
+            const Vec3d* v = d.vertices + o.vertex;
+            const Vec3d corners[3] = {v[0], v[i], v[i + 1]};
+            const Vec3d g = cross(corners[1] - corners[0], corners[2] - corners[1]);
             const Point<N> rounded[3] = {s.vertices.data[first], s.vertices.data[first + i],
                                          s.vertices.data[first + i + 1]};
             if (!(length(g) > 0) || !spans(rounded, 3)) {
                 s.vanished++;
                 continue;
             }
-            Point<N> middle{};
-            typename N::Length r{};
-            ball(corners, 3, middle, r);
-            s.patches.push() = {Convert<N>::direction(unit(g)), middle, r, first, first + i, make_tag(place, o.fill)};
+            const CornerBall around = ball(3, [&corners](uint32_t k) { return corners[k]; });
+            s.patches.push() = {Convert<N>::direction(unit(g)), around.middle, around.radius, first, first + i,
+                                make_tag(place, o.fill)};
         }
     }
 
@@ -452,46 +453,41 @@ private:
         const auto lattice = [&](double offset) {
             return Lattice<N>{step({1, 0, 0}, offset), step({0, 1, 0}, offset), step({0, 0, 1}, offset)};
         };
-        const auto ref = [](qray::TextureKind kind, uint32_t count) {
-            return TextureRef{kind, static_cast<uint16_t>(count - 1)};
-        };
+        const auto latest = [&t](const auto& table) { return TextureRef{t.kind, static_cast<uint16_t>(table.count - 1)}; };
         const Vec3d a = length(t.axis) > 0 ? unit(t.axis) : Vec3d{0, 1, 0};
         switch (t.kind) {
         case TextureKind::none: break;
         case TextureKind::checker:
             s.checkers.push() = {n, lattice(epsilon)};
-            return ref(qray::TextureKind::checker, s.checkers.count);
+            return latest(s.checkers);
         case TextureKind::stripes:
             s.stripes.push() = {n, axis(a, epsilon, true)};
-            return ref(qray::TextureKind::stripes, s.stripes.count);
+            return latest(s.stripes);
         case TextureKind::gradient:
             s.gradients.push() = {n, axis(a, 0, false)};
-            return ref(qray::TextureKind::gradient, s.gradients.count);
+            return latest(s.gradients);
         case TextureKind::rings:
             s.rings.push() = {n, axis({1, 0, 0}, 0, false), axis({0, 0, 1}, 0, false)};
-            return ref(qray::TextureKind::rings, s.rings.count);
+            return latest(s.rings);
         case TextureKind::noise:
             s.noises.push() = {n, lattice(0)};
-            return ref(qray::TextureKind::noise, s.noises.count);
+            return latest(s.noises);
         case TextureKind::marble:
             s.marbles.push() = {n, lattice(0), axis(a, 0, true)};
-            return ref(qray::TextureKind::marble, s.marbles.count);
+            return latest(s.marbles);
         case TextureKind::wood: {
-            const Vec3d other = fabs(a.x) <= fabs(a.y) && fabs(a.x) <= fabs(a.z) ? Vec3d{1, 0, 0}
-                : fabs(a.y) <= fabs(a.z)                                         ? Vec3d{0, 1, 0}
-                                                                                 : Vec3d{0, 0, 1};
-            const Vec3d e1 = unit(cross(other, a)), e2 = cross(a, e1);
+            const Vec3d e1 = unit_across(a), e2 = cross(a, e1);
             s.woods.push() = {n, lattice(0), axis(e1, 0, false), axis(e2, 0, false)};
-            return ref(qray::TextureKind::wood, s.woods.count);
+            return latest(s.woods);
         }
         case TextureKind::brick: {
             Lattice<N> l = lattice(epsilon);
             l.y = step({0, 2, 0}, epsilon);
             s.bricks.push() = {n, l};
-            return ref(qray::TextureKind::brick, s.bricks.count);
+            return latest(s.bricks);
         }
         }
-        return {qray::TextureKind::none, 0};
+        return {TextureKind::none, 0};
     }
 
     void camera()

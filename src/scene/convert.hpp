@@ -10,31 +10,6 @@
 
 namespace qray::scene {
 
-inline Vec3d operator+(const Vec3d& a, const Vec3d& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3d operator-(const Vec3d& a, const Vec3d& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3d operator*(const Vec3d& a, double k) { return {a.x * k, a.y * k, a.z * k}; }
-inline double dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3d cross(const Vec3d& a, const Vec3d& b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-// Scaled first: squares of components near either end of double's range neither overflow nor vanish.
-inline double largest(const Vec3d& a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
-inline double length(const Vec3d& a)
-{
-    const double m = largest(a);
-    if (m == 0)
-        return 0;
-    const Vec3d b{a.x / m, a.y / m, a.z / m};
-    return m * sqrt(dot(b, b));
-}
-inline Vec3d unit(const Vec3d& a)
-{
-    const double m = largest(a);
-    const Vec3d b{a.x / m, a.y / m, a.z / m};
-    return b * (1 / sqrt(dot(b, b)));
-}
-
 template <class N>
 struct Convert {
     template <class F>

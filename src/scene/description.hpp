@@ -11,6 +11,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <qray/material.hpp>
+
+#include "vec3d.hpp"
+
 namespace qray::scene {
 
 struct Limits {
@@ -25,18 +29,13 @@ struct Limits {
     static constexpr double narrow_cell = 1.0 / 4096; // of a texture, likewise
 };
 
-struct Vec3d {
-    double x = 0, y = 0, z = 0;
-    friend bool operator==(const Vec3d&, const Vec3d&) = default;
-};
-
 struct View {
     Vec3d from, at, up;
     double angle = 0; // degrees, full vertical field, in (0, 180)
     uint32_t width = 0, height = 0;
 };
 
-enum class TextureKind : uint8_t { none, checker, stripes, gradient, rings, noise, marble, wood, brick };
+using qray::TextureKind;
 
 struct Texture {
     TextureKind kind = TextureKind::none;
@@ -97,7 +96,7 @@ struct Error {
 
 // Reads the scene text of `size` bytes into `out` (reset first, but for what lies in its arrays beyond the
 // counts; it is too large for a stack). `name` stands in messages. Returns false, fills `error` and leaves
-// `out` unspecified where the text is no scene of IMAGE.md. Every rule of the language that does not depend
+// `out` unspecified where the text is no scene of scenes/README.md. Every rule of the language that does not depend
 // on a number system is checked here. Threads may parse into different Descriptions.
 bool parse(const char* name, const char* text, size_t size, Description& out, Error& error);
 

@@ -1,6 +1,7 @@
 // The grammar of the scene language, entity by entity, and all its checks.
 #include "reader.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstdio>
 #include <string_view>
@@ -33,20 +34,13 @@ constexpr TextureWord texture_words[] = {
     {"wood", TextureKind::wood, true},         {"brick", TextureKind::brick, false},
 };
 
-Vec3d operator-(const Vec3d& p, const Vec3d& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
-Vec3d operator+(const Vec3d& p, const Vec3d& q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
-double dot(const Vec3d& p, const Vec3d& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
-Vec3d cross(const Vec3d& p, const Vec3d& q) {
-    return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
-}
-
 // Whether n >= 3 corners enclose something. What rounding each coordinate to a double could make of an area
 // of 0 (up to 2^-50 times the largest coordinate times the extent, in each product) is none.
 bool has_area(const Vec3d* corners, uint32_t n, bool fan) {
-    double coordinate = largest_component(corners[0]), extent = 0;
+    double coordinate = largest(corners[0]), extent = 0;
     for (uint32_t i = 1; i < n; ++i) {
-        coordinate = std::max(coordinate, largest_component(corners[i]));
-        extent = std::max(extent, largest_component(corners[i] - corners[0]));
+        coordinate = std::max(coordinate, largest(corners[i]));
+        extent = std::max(extent, largest(corners[i] - corners[0]));
     }
     if (extent < smallest_length) return false;
     const double noise = 0x1p-50 * extent * coordinate;
@@ -54,10 +48,10 @@ bool has_area(const Vec3d* corners, uint32_t n, bool fan) {
     for (uint32_t i = 1; i + 1 < n; ++i) {
         const Vec3d area = cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
         // A polygon whose lobes cancel in the sum still has the plane of its first corner, and is drawn.
-        if ((fan || i == 1) && largest_component(area) > noise) return true;
+        if ((fan || i == 1) && largest(area) > noise) return true;
         sum = sum + area;
     }
-    return !fan && largest_component(sum) > noise;
+    return !fan && largest(sum) > noise;
 }
 
 uint64_t hash_of(const Fill& fill) {

@@ -5,7 +5,6 @@
 #include "description.hpp"
 #include "lexer.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace qray::scene {
@@ -26,12 +25,8 @@ constexpr Range angle_range{0x1p-1074, 0x1.67fffffffffffp7, "a number above 0 an
 constexpr Range length_range{-largest_length, largest_length, "a number from -1e15 to 1e15"};
 constexpr Range size_range{smallest_length, largest_length, "a number above 0, from 1e-60 to 1e15"};
 
-inline double largest_component(const Vec3d& p) {
-    return std::max(std::fabs(p.x), std::max(std::fabs(p.y), std::fabs(p.z)));
-}
-
 // Whether a vector is shorter than any length that counts.
-inline bool is_zero(const Vec3d& p) { return largest_component(p) < smallest_length; }
+inline bool is_zero(const Vec3d& p) { return largest(p) < smallest_length; }
 
 // A token as a message shows it: cut to a length that people read.
 struct Shown {
