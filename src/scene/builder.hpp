@@ -413,7 +413,7 @@ private:
             if constexpr (N::is_fixed)
                 for (; (IsNarrow<N> ? length(at) : largest(at)) > world; at = at * 0.5)
                     shift++;
-            if (shift > 31 || (is_float && largest(at) > 0x1p60)) { // so far away that it is a sun; in float, its square infinite
+            if (shift > 30 || (is_float && largest(at) > 0x1p60)) { // so far away that it is a sun; in float, its square infinite
                 s.suns.push() = {Convert<N>::direction(unit(at)), colour(l.colour)};
                 continue;
             }
