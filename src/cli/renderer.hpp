@@ -32,33 +32,10 @@ inline const Renderer* const renderers[] = {&q16_renderer, &q32_renderer, &float
 template <class N>
 uint32_t table_bytes(const scene::Storage<N>& s)
 {
-    const Effects& e = s.effects;
     size_t sum = 0;
-    const auto add = [&sum](bool present, const auto& table) {
-        sum += present ? table.count * sizeof *table.data : 0;
-    };
-    add(e.sphere, s.spheres);
-    add(e.disc, s.discs);
-    add(e.cone, s.cones);
-    add(e.polygon, s.polygons);
-    add(e.patch, s.patches);
-    add(e.polygon || e.patch, s.vertices);
-    add(e.patch, s.normals);
-    add(true, s.mattes);
-    add(e.highlight, s.highlights);
-    add(e.mirror, s.mirrors);
-    add(e.transmit || e.see_through, s.transmits);
-    add(e.texture(), s.textures);
-    add(e.checker, s.checkers);
-    add(e.stripes, s.stripes);
-    add(e.gradient, s.gradients);
-    add(e.rings, s.rings);
-    add(e.noise, s.noises);
-    add(e.marble, s.marbles);
-    add(e.wood, s.woods);
-    add(e.brick, s.bricks);
-    add(e.light, s.lights);
-    add(e.sun, s.suns);
+    scene::for_each_table(s, s.effects, [&sum](const auto& array, const char*, const char*, const char*) {
+        sum += array.count * sizeof *array.data;
+    });
     return static_cast<uint32_t>(sum);
 }
 

@@ -10,6 +10,54 @@
 
 namespace qray::scene {
 
+// Calls f(array, type, name, fields) for each table that a tracer for e needs of a scene, in Scene's order.
+template <class N, class F>
+void for_each_table(const Storage<N>& s, const Effects& e, F f)
+{
+    constexpr const char* lattice = IsNarrow<N> ? "colour; x, y, z coordinate: row, frac, offset, whole"
+        : N::is_fixed                           ? "colour; x, y, z coordinate: row, shift, offset"
+                                                : "colour; x, y, z coordinate: row, inside, index";
+    const auto table = [&f](bool present, const auto& array, const char* type, const char* name,
+                            const char* fields) {
+        if (present && array.count != 0)
+            f(array, type, name, fields);
+    };
+    table(e.sphere, s.spheres, "Sphere<Number>", "spheres",
+          "centre; radius * 2^fine and its inverse; fine; tag; centre's rounding * 2^fine");
+    table(e.disc, s.discs, "Disc<Number>", "discs", "centre; normal; radius; tag");
+    table(e.cone, s.cones, "Cone<Number>", "cones",
+          "middle; across, across, axis; cosine * mean radius, half height, bound, all * 2^fine; "
+          "cosine, sine; fine; tag; middle's rounding * 2^fine");
+    table(e.polygon, s.polygons, "Polygon<Number>", "polygons",
+          "normal; middle and radius of a ball around it; first vertex, count; tag");
+    table(e.patch, s.patches, "Patch<Number>", "patches",
+          "normal; middle and radius of a ball around it; vertices: first, second; tag");
+    table(e.polygon || e.patch, s.vertices, "Point<Number>", "vertices",
+          "corners of polygons and patches");
+    table(e.patch, s.normals, "Direction<Number>", "normals", "shading normals, as many as vertices");
+
+    table(true, s.mattes, "Matte<Number>", "mattes", "by material: colour; ambient light; diffuse");
+    table(e.highlight, s.highlights, "Highlight<Number>", "highlights",
+          "by material: amount; shine: whole, fraction");
+    table(e.mirror, s.mirrors, "Mirror<Number>", "mirrors", "by material: amount");
+    table(e.transmit || e.see_through, s.transmits, "Transmit<Number>", "transmits",
+          "by material: amount; 1 / index of refraction, index");
+    table(e.texture(), s.textures, "TextureRef", "textures",
+          "by material: kind; index into the table of that kind");
+    table(e.checker, s.checkers, "Checker<Number>", "checkers", lattice);
+    table(e.stripes, s.stripes, "Stripes<Number>", "stripes", "colour; coordinate");
+    table(e.gradient, s.gradients, "Gradient<Number>", "gradients", "colour; coordinate");
+    table(e.rings, s.rings, "Rings<Number>", "rings", "colour; x and z coordinate");
+    table(e.noise, s.noises, "Noise<Number>", "noises", lattice);
+    table(e.marble, s.marbles, "Marble<Number>", "marbles",
+          "colour; x, y, z coordinate; the one across the veins");
+    table(e.wood, s.woods, "Wood<Number>", "woods", "colour; x, y, z coordinate; two across the grain");
+    table(e.brick, s.bricks, "Brick<Number>", "bricks", lattice);
+
+    table(e.light, s.lights, "Light<Number>", "lights", "place / 2^shift; shift; colour");
+    table(e.sun, s.suns, "Sun<Number>", "suns", "direction towards it; colour");
+}
+
 template <class N>
 class Emitter {
 public:
@@ -34,7 +82,7 @@ public:
         out.print("\ninline constexpr uint32_t width = %u, height = %u;\n", unsigned{s.camera.width},
                   unsigned{s.camera.height});
         effects();
-        tables([this](const auto& array, const char* type, const char* name, const char* fields) {
+        for_each_table(s, e, [this](const auto& array, const char* type, const char* name, const char* fields) {
             out.print("\n// %s\ninline constexpr qray::%s %s[] = {\n", fields, type, name);
             for (uint32_t i = 0; i < array.count; i++) {
                 out.put("    ");
@@ -57,7 +105,7 @@ public:
             member("levels", Single<uint8_t>{s.levels});
             member("threshold", Single<typename N::Unit>{s.threshold});
         }
-        tables([this](const auto& array, const char*, const char* name, const char*) {
+        for_each_table(s, e, [this](const auto& array, const char*, const char* name, const char*) {
             out.print("    .%s = {%s, %u},\n", name, name, static_cast<unsigned>(array.count));
         });
         out.put("};\n\n} // namespace scene\n");
@@ -85,52 +133,6 @@ private:
             if (e.*name.effect)
                 out.print("    .%s = true,\n", name.name);
         out.print("    .depth = %u,\n};\n", unsigned{e.depth});
-    }
-
-    // Calls f(array, type, name, fields) for each table of this scene, in Scene's order.
-    template <class F>
-    void tables(F f) const
-    {
-        constexpr const char* lattice = "colour; x, y, z coordinate: row, shift, offset";
-        const auto table = [&f](bool present, const auto& array, const char* type, const char* name,
-                                const char* fields) {
-            if (present && array.count != 0)
-                f(array, type, name, fields);
-        };
-        table(e.sphere, s.spheres, "Sphere<Number>", "spheres",
-              "centre; radius * 2^fine and its inverse; fine; tag; centre's rounding * 2^fine");
-        table(e.disc, s.discs, "Disc<Number>", "discs", "centre; normal; radius; tag");
-        table(e.cone, s.cones, "Cone<Number>", "cones",
-              "middle; across, across, axis; cosine * mean radius, half height, bound, all * 2^fine; "
-              "cosine, sine; fine; tag; middle's rounding * 2^fine");
-        table(e.polygon, s.polygons, "Polygon<Number>", "polygons",
-              "normal; middle and radius of a ball around it; first vertex, count; tag");
-        table(e.patch, s.patches, "Patch<Number>", "patches",
-              "normal; middle and radius of a ball around it; vertices: first, second; tag");
-        table(e.polygon || e.patch, s.vertices, "Point<Number>", "vertices",
-              "corners of polygons and patches");
-        table(e.patch, s.normals, "Direction<Number>", "normals", "shading normals, as many as vertices");
-
-        table(true, s.mattes, "Matte<Number>", "mattes", "by material: colour; ambient light; diffuse");
-        table(e.highlight, s.highlights, "Highlight<Number>", "highlights",
-              "by material: amount; shine: whole, fraction");
-        table(e.mirror, s.mirrors, "Mirror<Number>", "mirrors", "by material: amount");
-        table(e.transmit || e.see_through, s.transmits, "Transmit<Number>", "transmits",
-              "by material: amount; 1 / index of refraction, index");
-        table(e.texture(), s.textures, "TextureRef", "textures",
-              "by material: kind; index into the table of that kind");
-        table(e.checker, s.checkers, "Checker<Number>", "checkers", lattice);
-        table(e.stripes, s.stripes, "Stripes<Number>", "stripes", "colour; coordinate");
-        table(e.gradient, s.gradients, "Gradient<Number>", "gradients", "colour; coordinate");
-        table(e.rings, s.rings, "Rings<Number>", "rings", "colour; x and z coordinate");
-        table(e.noise, s.noises, "Noise<Number>", "noises", lattice);
-        table(e.marble, s.marbles, "Marble<Number>", "marbles",
-              "colour; x, y, z coordinate; the one across the veins");
-        table(e.wood, s.woods, "Wood<Number>", "woods", "colour; x, y, z coordinate; two across the grain");
-        table(e.brick, s.bricks, "Brick<Number>", "bricks", lattice);
-
-        table(e.light, s.lights, "Light<Number>", "lights", "place / 2^shift; shift; colour");
-        table(e.sun, s.suns, "Sun<Number>", "suns", "direction towards it; colour");
     }
 
     void camera()
@@ -330,8 +332,8 @@ private:
     }
     void value(const Wood<N>& v)
     {
-        const auto& [colour, lattice, across, along] = v;
-        list(colour, lattice, across, along);
+        const auto& [colour, lattice, e1, e2] = v;
+        list(colour, lattice, e1, e2);
     }
     void value(const Brick<N>& v)
     {
