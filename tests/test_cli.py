@@ -381,6 +381,16 @@ class Threads(Cli):
             self.assertEqual(process.wait(), -signal.SIGTERM)
             self.assertEqual(os.listdir(), ["ok.nff"])
 
+    def test_a_signal_that_is_ignored_stays_so(self):
+        process = subprocess.Popen(["nohup", QRAY, "ok.nff", "-s", "400x9999", "-r", "400", "-q", "-o", "x"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.kill)
+        self.wait(process, lambda: [name for name in os.listdir() if name.endswith(".part")])
+        process.send_signal(signal.SIGHUP)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(), -signal.SIGTERM)  # not -SIGHUP, which came first
+        self.assertEqual(os.listdir(), ["ok.nff"])
+
     def on_a_terminal(self, *arguments):
         master, slave = pty.openpty()
         process = subprocess.Popen([QRAY, "ok.nff", "-o", "x", *arguments], stderr=slave, stdout=subprocess.DEVNULL)

@@ -21,7 +21,7 @@ struct Kernel {
     static const char* name(const scene::Storage<N>& storage);
 };
 
-// Balls on a floor: the lecture's first picture.
+// Balls on a checkered floor, with mirrors.
 constexpr Effects balls_effects()
 {
     Effects e;
@@ -38,6 +38,8 @@ constexpr Effects nff_effects()
     e.depth = scene::Settings::max_depth;
     return e;
 }
+
+static_assert(scene::Settings::max_levels <= max_adaptive_levels);
 
 template <class N, Effects E>
 void rows_of(const scene::Storage<N>& storage, uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts)

@@ -74,7 +74,7 @@ bool take_adaptive(Options& o, const char* value)
 {
     const char* comma = strchr(value, ',');
     const size_t length = comma != nullptr ? static_cast<size_t>(comma - value) : strlen(value);
-    return whole({value, length}, 1, 6, o.settings.levels)
+    return whole({value, length}, 1, scene::Settings::max_levels, o.settings.levels)
         && (comma == nullptr || share(comma + 1, o.settings.threshold));
 }
 
@@ -133,7 +133,7 @@ constexpr Option table[] = {
     {"-q", nullptr, all, "no progress, no warnings", nullptr, [](Options& o, const char*) { return o.quiet = true; }},
 };
 static_assert(scene::Limits::resolution == 32768 && scene::Settings::max_grid == 64 && scene::Settings::max_depth == 64
-              && max_threads == 256); // as the texts say
+              && scene::Settings::max_levels == 6 && max_threads == 256); // as the texts say
 
 bool has(const Option& option, Command command)
 {

@@ -82,7 +82,8 @@ bool Output::open(const char* name)
         return fail("open", ENAMETOOLONG);
     }
     for (const int which : {SIGINT, SIGTERM, SIGHUP})
-        signal(which, interrupted);
+        if (signal(which, interrupted) == SIG_IGN) // as nohup has it
+            signal(which, SIG_IGN);
     unlink(temporary); // left by an earlier process of that number
     file_ = ::open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file_ < 0) {

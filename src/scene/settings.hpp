@@ -14,6 +14,7 @@ struct Settings {
     double threshold = 1.0 / 16;
     static constexpr uint32_t max_depth = 64;
     static constexpr uint32_t max_grid = 64;
+    static constexpr uint32_t max_levels = 6;
 };
 
 } // namespace qray::scene
