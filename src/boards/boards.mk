@@ -28,8 +28,7 @@ FW_OPTIONS  := -n $(NUMBER) $(if $(SIZE),-s $(SIZE)) $(if $(SAMPLES),-r $(SAMPLE
     $(if $(ADAPTIVE),-a $(ADAPTIVE)) $(if $(DEPTH),-d $(DEPTH)) $(if $(CUTOFF),--cutoff $(CUTOFF))
 FW_DEFINES  := $(if $(SCENE),-DQRAY_SCENE_HEADER='"$(notdir $(FW_STEM)).hpp"',\
     $(if $(SIZE),-DQRAY_WIDTH=$(word 1,$(FW_SIZE)) -DQRAY_HEIGHT=$(word 2,$(FW_SIZE))))
-FW_WARNINGS := -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Werror
-FW_FLAGS    := -std=c++20 $(BOARD_CPU) $(BOARD_OPTIMISE) -g $(FW_WARNINGS) \
+FW_FLAGS    := -std=c++20 $(BOARD_CPU) $(BOARD_OPTIMISE) -g $(WARNINGS) \
     -I$(FW_INCLUDE) -Isrc -Ibuild/$(BOARD) -ffreestanding \
     -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-unwind-tables \
     -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -ffp-contract=off \
