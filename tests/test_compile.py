@@ -110,6 +110,46 @@ class Compile(unittest.TestCase):
         self.assertEqual(text.split("\n")[0], "// One ball. \\.")
         self.assertRegex(self.header(VIEW), r"^// header.nff by qray compile: q32, 16 x 12 pixels, ")
 
+    # In files of their own, under one name, which the linker must not take for one and the same; and in one file, under two.
+    def test_a_program_holds_several_scenes(self):
+        draw = ("    qray::render<qray::Rgb888>(%s::scene, row, 1, [](uint32_t, uint32_t, const uint8_t* rgb, uint32_t bytes) {"
+                " return fwrite(rgb, 1, bytes, stdout) == bytes; });\n")
+        scenes = [("scenes/balls.nff", "q32"), ("scenes/phong.nff", "q32"), ("scenes/phong.nff", "q16")]
+        include, expected, files = "#include <stdio.h>\n", b"", {}
+        for k, (scene, number) in enumerate(scenes):
+            options = ("-n", number, "-s", "32x24")
+            for name, out in (((), f"apart{k}"), (("--name", f"part_{k}"), f"together{k}")):
+                made = qray("compile", scene, *options, *name, "-o", f"{FOLDER}/{out}.hpp")
+                self.assertEqual((made.returncode, made.stderr), (0, b""))
+            expected += qray(scene, *options, "-q", "-o", "-").stdout.removeprefix(b"P6\n32 24\n255\n")
+            files[f"apart{k}"] = (include + f'#include "apart{k}.hpp"\nvoid draw{k}();\nvoid draw{k}()\n{{\n'
+                                  "    static uint8_t row[3 * scene::width];\n" + draw % "scene" + "}\n")
+        order = range(len(scenes))
+        files["apart"] = ("".join(f"void draw{k}();\n" for k in order) + "int main()\n{\n"
+                          + "".join(f"    draw{k}();\n" for k in order) + "}\n")
+        files["together"] = (include + "".join(f'#include "together{k}.hpp"\n' for k in order) + "int main()\n{\n"
+                             "    static uint8_t row[3 * part_0::width];\n"
+                             + "".join(draw % f"part_{k}" for k in order) + "}\n")
+        for name, text in files.items():
+            with open(f"{FOLDER}/{name}.cpp", "w") as file:
+                file.write(text)
+        apart = [f"apart{k}" for k in order]
+        for names in (["apart", *apart], ["apart", *reversed(apart)], ["together"]):
+            with self.subTest(names=names):
+                built = subprocess.run(["g++", *FLAGS, *[f"{FOLDER}/{name}.cpp" for name in names],
+                                        "-o", f"{FOLDER}/several"], stdout=subprocess.PIPE,
+                                       stderr=subprocess.STDOUT, text=True)
+                self.assertEqual(built.returncode, 0, built.stdout)
+                drawn = subprocess.run([f"{FOLDER}/several"], stdout=subprocess.PIPE)
+                self.assertEqual((drawn.returncode, drawn.stdout), (0, expected))
+
+    def test_names(self):
+        for name in ("", "2nd", "a b", "a-b", "a::b", "\u00e9", "x" * 65):
+            made = qray("compile", "scenes/balls.nff", "--name", name, "-o", "-")
+            self.assertEqual((made.returncode, made.stdout), (2, b""), name)
+            self.assertIn(b"expected", made.stderr)
+            self.assertEqual(made.stderr.count(b"\n"), 1)
+
     def test_the_header_holds_what_the_scene_calls_for(self):
         text = self.header("shadows off\n" + VIEW + "l 1 2 3\ns 0 0 0 1\ns 1 0 0 1\n", "-s", "64x48")
         self.assertEqual(re.findall(r"\.(\w+) = true", text), ["sphere", "light"])

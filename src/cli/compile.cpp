@@ -56,7 +56,8 @@ int compile_main(int argc, char** argv)
     say_origin(options, built, origin, sizeof origin);
     bool good = output.open(out);
     if (good) {
-        renderers[static_cast<int>(options.number)]->emit(source, description().comment, origin);
+        renderers[static_cast<int>(options.number)]->emit(source, description().comment, origin,
+                                                              options.name);
         good = source.finish() && output.commit();
     }
     if (!good)

@@ -95,6 +95,14 @@ bool take_error(Options& o, const char* value)
     return positive(text, o.levels);
 }
 
+bool take_name(Options& o, const char* value)
+{
+    constexpr const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789";
+    const size_t length = strlen(value);
+    o.name = value;
+    return length != 0 && length <= 64 && strspn(value, letters) == length && (*value < '0' || *value > '9');
+}
+
 constexpr unsigned draw = static_cast<unsigned>(Command::draw);
 constexpr unsigned compile = static_cast<unsigned>(Command::compile);
 constexpr unsigned plan = static_cast<unsigned>(Command::plan);
@@ -105,6 +113,8 @@ constexpr Option table[] = {
      [](Options& o, const char* v) { return *(o.output = v) != 0; }},
     {"-o", "FILE", compile, "the header; '-' is standard output (default: SCENE.hpp in this folder)", "a name",
      [](Options& o, const char* v) { return *(o.output = v) != 0; }},
+    {"--name", "NAME", compile, "the header's namespace (default: scene)",
+     "a C++ name of at most 64 letters, digits and _", take_name},
     {"-s", "WxH", all, "size in pixels (default: the scene's own)", "WIDTHxHEIGHT, each from 1 to 32768", take_size},
     {"-n", "NUMBER", draw | compile, "number system: q16, q32, float or double (default: q32)",
      "q16, q32, float or double", take_number},

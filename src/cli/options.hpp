@@ -19,6 +19,7 @@ struct Options {
     bool has_samples = false; // -r was given, so that -a must not be
     uint32_t threads = 0;     // 0: one for each processor
     bool stats = false, quiet = false;
+    const char* name = "scene"; // qray compile: the namespace
     // qray plan; 0 is what was not given
     const char* board = nullptr;
     double mhz = 0, seconds = 0;

@@ -22,8 +22,8 @@ struct Renderer {
     bool (*build)(const scene::Description&, const scene::Settings&, Built&, scene::Error&);
     // As Kernel::rows, of the scene that was built last; by any number of threads.
     void (*rows)(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts);
-    // That scene as a C++ header; see Emitter.
-    void (*emit)(scene::Source& out, const char* title, const char* origin);
+    // That scene as a C++ header; see Emitter::emit.
+    void (*emit)(scene::Source& out, const char* title, const char* origin, const char* name);
 };
 
 extern const Renderer q16_renderer, q32_renderer, float_renderer, double_renderer;
@@ -56,9 +56,9 @@ struct RendererOf {
     {
         Kernel<N>::rows(storage, first, last, rgb, counts);
     }
-    static void emit(scene::Source& out, const char* title, const char* origin)
+    static void emit(scene::Source& out, const char* title, const char* origin, const char* name)
     {
-        scene::Emitter<N>(storage, out).emit(title, origin);
+        scene::Emitter<N>(storage, out).emit(title, origin, name);
     }
     static constexpr Renderer renderer{build, rows, emit};
 };

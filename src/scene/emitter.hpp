@@ -1,5 +1,5 @@
-// The builder's result as a constexpr header: namespace scene with Number, effects, width, height and scene,
-// for programs that include <qray/qray.hpp>. It holds what the scene calls for and nothing else.
+// The builder's result as a constexpr header: a namespace with Number, effects, width, height and scene, for
+// programs that include <qray/qray.hpp>. It holds what the scene calls for and nothing else.
 #pragma once
 
 #include <type_traits>
@@ -66,13 +66,47 @@ public:
         e.tree = false; // it pays from some hundred shapes on, and takes a float a ray
     }
 
-    // `title` may be empty; `origin` says what the header was made from.
-    void emit(const char* title, const char* origin)
+    // `title` may be empty; `origin` says what the header was made from; `name` is of the namespace.
+    void emit(const char* title, const char* origin, const char* name)
     {
         if (*title != 0)
             out.comment(title);
         out.comment(origin);
-        out.put("#pragma once\n\n#include <qray/qray.hpp>\n\nnamespace scene {\n\n");
+        out.put("#pragma once\n\n#include <qray/qray.hpp>\n\n");
+        out.print("namespace %s::inline h%016llx { // by its contents, so that a linker tells two scenes apart\n\n", name,
+                  static_cast<unsigned long long>(digest()));
+        contents();
+        out.print("\n} // namespace %s\n", name);
+    }
+
+private:
+    template <class T>
+    struct Single { // a Maybe
+        T value;
+    };
+
+    const Storage<N>& s;
+    Source& out;
+    Effects e;
+
+    // Of the namespace's contents: FNV-1a, 64 bits.
+    uint64_t digest() const
+    {
+        uint64_t hash = 0xcbf2'9ce4'8422'2325;
+        const auto add = [](void* to, const char* bytes, size_t size) {
+            uint64_t& h = *static_cast<uint64_t*>(to);
+            for (size_t i = 0; i < size; i++)
+                h = (h ^ static_cast<unsigned char>(bytes[i])) * 0x100'0000'01b3;
+            return true;
+        };
+        Source text(add, &hash);
+        Emitter(s, text).contents();
+        text.finish();
+        return hash;
+    }
+
+    void contents()
+    {
         if (e.shapes() != 0)
             out.put("using qray::make_tag; // place in the scene file, material\n");
         out.print("using Number = qray::%s;\n", number_name());
@@ -108,18 +142,8 @@ public:
         for_each_table(s, e, [this](const auto& array, const char*, const char* name, const char*) {
             out.print("    .%s = {%s, %u},\n", name, name, static_cast<unsigned>(array.count));
         });
-        out.put("};\n\n} // namespace scene\n");
+        out.put("};\n");
     }
-
-private:
-    template <class T>
-    struct Single { // a Maybe
-        T value;
-    };
-
-    const Storage<N>& s;
-    Source& out;
-    Effects e;
 
     static constexpr const char* number_name()
     {
