@@ -31,15 +31,16 @@
 #define QRAY_SOFT_CLZ 0
 #endif
 
-// Before a loop over a scene's shapes: where code is cheap and the table is a constant, eight at a time, so that its numbers
-// become part of the code.
+// Before a loop over a scene's shapes: where code is cheap and the table is a constant, eight at a time, so
+// that its numbers become part of the code.
 #if __SIZEOF_POINTER__ == 4 && !QRAY_NARROW_MULTIPLY && !defined(__clang__)
 #define QRAY_UNROLL _Pragma("GCC unroll 8")
 #else
 #define QRAY_UNROLL
 #endif
 
-// Of a function object that asks one shape: where a tree names the shapes, in a place or two, the ray stays in registers.
+// Of a function object that asks one shape: where a tree names the shapes, in a place or two, the ray stays
+// in registers.
 #if __SIZEOF_POINTER__ == 4
 #define QRAY_INLINE_LAMBDA
 #else

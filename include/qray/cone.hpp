@@ -9,9 +9,10 @@
 // which needs no 120-bit product, and roots q/A and C/q with q = -(B + sign(B) sqrt(B^2 - A C)), which need no
 // special case where the ray is parallel to a generator. A nearly axial d is block-scaled by 2^k.
 //
-// U^2 - V^2 has an error of 2 |U| ulp, B^2 - A C one of 2 (|B| + rho |A|). Close to a generator, where A and B vanish and
-// the root is small, that is the better in fixed point: a ray could lose the end of a chord that is 16 ulp deep. Where it
-// comes out negative, too, and rho is far less at -B/A, near an apex, it is formed again there, where it is -A C.
+// U^2 - V^2 has an error of 2 |U| ulp, B^2 - A C one of 2 (|B| + rho |A|). Close to a generator, where A and
+// B vanish and the root is small, that is the better in fixed point: a ray could lose the end of a chord that
+// is 16 ulp deep. Where it comes out negative, too, and rho is far less at -B/A, near an apex, it is formed
+// again there, where it is -A C.
 #pragma once
 
 #include "narrow.hpp"
@@ -98,8 +99,8 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
         if (along_generator) {
             bool real = N::small_discriminant(half_b, a, c, root);
             Length deepest{};
-            if (!real && leaving != Leaves::inward && k >= 0 && N::quotient(-half_b, a, k, deepest) && deepest <= s.bound
-                && -deepest <= s.bound) {
+            if (!real && leaving != Leaves::inward && k >= 0 && N::quotient(-half_b, a, k, deepest)
+                && deepest <= s.bound && -deepest <= s.bound) {
                 deepest = N::coarse(deepest, k);
                 const Length r = rho + N::length(deepest * ds), small = N::coarse(rho, 2);
                 if (r < small && -r < small) { // near an apex
@@ -120,8 +121,9 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
         t[i] = valid[i] ? b + N::coarse(tau[i], s.fine) : N::length_zero;
     }
     if (leaving == Leaves::inward) {
-        // Inside between the roots where A > 0, and to its end where not. The end is the larger root; the chord between the
-        // roots, 2 sqrt(D) / A, bounds it and stands in for it, since it knows nothing of the error of B.
+        // Inside between the roots where A > 0, and to its end where not. The end is the larger root; the
+        // chord between the roots, 2 sqrt(D) / A, bounds it and stands in for it, since it knows nothing of
+        // the error of B.
         if (!(a > typename N::Cosine{}))
             return 0;
         const int end = q > typename N::Moment{} ? 0 : 1;
@@ -135,7 +137,8 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
             t[0] = N::coarse(chord, s.fine);
             tau[0] = chord - N::fine(b, s.fine);
         }
-        // As C is 0 at the origin, the end is at -2 B / A of there, too: where the two differ, D was too small to be known.
+        // As C is 0 at the origin, the end is at -2 B / A of there, too: where the two differ, D was too
+        // small to be known.
         Length far{};
         const Length begin = N::fine(b, s.fine), near = begin + tau[0];
         const auto slope = half_b - begin * N::unit(a);
@@ -198,10 +201,12 @@ constexpr int crossings(const Cone<N>& s, const Ray<N>& ray, typename N::Length 
     return (n > 0 && t[0] < limit) + (n > 1 && t[1] < limit);
 }
 
-// The outward unit normal at a hit (at an apex, the axis away from the body), and the point, moved onto the surface along
-// it: where a ray grazes, or is nearly parallel to a generator, its t alone would leave that some ulp off.
+// The outward unit normal at a hit (at an apex, the axis away from the body), and the point, moved onto the
+// surface along it: where a ray grazes, or is nearly parallel to a generator, its t alone would leave that
+// some ulp off.
 template <class N>
-constexpr void surface_of(const Cone<N>& s, const Local<N>& local, const Direction<N>& d, Point<N>& point, Direction<N>& n)
+constexpr void surface_of(const Cone<N>& s, const Local<N>& local, const Direction<N>& d, Point<N>& point,
+                          Direction<N>& n)
 {
     const Point<N> w = local.near + along<N>(local.along, d);
     const auto z = N::length(dot<N>(w, s.axis));

@@ -164,8 +164,9 @@ struct LatticeStep<N> {
     constexpr Cell<N> cell(typename N::Length q) const
     {
         const int64_t p = wide_mul(q.raw, row);
-        return LatticeAxis<N>::split((shift >= 0 ? static_cast<uint64_t>(p) << shift : static_cast<uint64_t>(p >> -shift))
-                                     + static_cast<uint64_t>(offset));
+        return LatticeAxis<N>::split(
+            (shift >= 0 ? static_cast<uint64_t>(p) << shift : static_cast<uint64_t>(p >> -shift))
+            + static_cast<uint64_t>(offset));
     }
 };
 

@@ -67,7 +67,8 @@ struct NarrowRay<N> {
     {
         const int32_t nx = narrow(n.x), ny = narrow(n.y), nz = narrow(n.z);
         const int32_t den = nx * dx + ny * dy + nz * dz; // 2^-28, off by less than 28400
-        const int32_t num = ((c.x.raw - ox) >> down) * nx + ((c.y.raw - oy) >> down) * ny + ((c.z.raw - oz) >> down) * nz;
+        const int32_t num = ((c.x.raw - ox) >> down) * nx + ((c.y.raw - oy) >> down) * ny
+            + ((c.z.raw - oz) >> down) * nz;
         return (num > slack && den < -28400) || (num < -slack && den > 28400);
     }
 
@@ -147,7 +148,10 @@ struct NarrowRay<N> {
     constexpr bool misses_plane(const Point<N>&, const Direction<N>&) const { return false; }
 
 private:
-    QRAY_INLINE static constexpr uint32_t square(int32_t a) { return static_cast<uint32_t>(a) * static_cast<uint32_t>(a); }
+    QRAY_INLINE static constexpr uint32_t square(int32_t a)
+    {
+        return static_cast<uint32_t>(a) * static_cast<uint32_t>(a);
+    }
 };
 
 } // namespace qray

@@ -89,7 +89,9 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
                                               [[maybe_unused]] Limit limit, F f)
 {
     if constexpr (E.tree) {
-        walk(scene.tree.value, ray, limit, [&](auto id) QRAY_INLINE_LAMBDA { return with_shape(scene, id.kind(), id.index(), f); });
+        walk(scene.tree.value, ray, limit, [&](auto id) QRAY_INLINE_LAMBDA {
+            return with_shape(scene, id.kind(), id.index(), f);
+        });
     } else {
         const NarrowRay<N> narrow(ray);
         for_each_shape(scene, [&](const auto& shape, Kind kind, uint32_t index) {
@@ -106,7 +108,7 @@ QRAY_INLINE constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, 
         hit = {}; // or the compiler warns that it may be used unset
     hit.t = N::length_max;
     hit.tag = {Tag::none};
-    for_each_candidate(scene, ray, [&hit] { return hit.t; }, [&](const auto& shape, Kind kind, uint32_t index) QRAY_INLINE_LAMBDA {
+    const auto take = [&](const auto& shape, Kind kind, uint32_t index) QRAY_INLINE_LAMBDA {
         typename N::Length t{};
         Local<N> local{};
         if (intersect_in(scene, shape, ray, hit.t, t, local) && hit.after(t, shape.tag)) {
@@ -118,7 +120,8 @@ QRAY_INLINE constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, 
                 hit.local = local;
         }
         return false;
-    });
+    };
+    for_each_candidate(scene, ray, [&hit] { return hit.t; }, take);
     return !(hit.tag == Tag{Tag::none});
 }
 

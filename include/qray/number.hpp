@@ -99,8 +99,8 @@ struct FixedSystem {
     static constexpr Length sqrt(Area a) { return {static_cast<int32_t>(isqrt(static_cast<uint64_t>(a.raw)))}; }
     static constexpr Unit sqrt_unit(Cosine a) { return {static_cast<int32_t>(isqrt(static_cast<uint64_t>(a.raw)))}; }
 
-    // sqrt(b^2 - a c) for |a| < 1/8, |b| < 2^8, |c| < 2^14, or false where that is negative. Block-scaled: b to 30 bits,
-    // a and c to 61 together, the longer of them first.
+    // sqrt(b^2 - a c) for |a| < 1/8, |b| < 2^8, |c| < 2^14, or false where that is negative. Block-scaled: b
+    // to 30 bits, a and c to 61 together, the longer of them first.
     QRAY_SHARED static constexpr bool small_discriminant(Moment b, Cosine a, Area c, Moment& root)
     {
         const auto bits = [](int64_t v) { return 64 - count_leading_zeros(static_cast<uint64_t>(v < 0 ? -v : v) | 1); };
@@ -138,7 +138,8 @@ struct FixedSystem {
         if (den.raw == 0)
             return false;
         // Two's complement magnitudes: |den| < 2^63 by the range of its terms.
-        const int64_t n = den.raw < 0 ? static_cast<int64_t>(0 - static_cast<uint64_t>(int64_t{num.raw})) : int64_t{num.raw};
+        const int64_t n =
+            den.raw < 0 ? static_cast<int64_t>(0 - static_cast<uint64_t>(int64_t{num.raw})) : int64_t{num.raw};
         const uint64_t d = den.raw < 0 ? 0 - static_cast<uint64_t>(int64_t{den.raw}) : static_cast<uint64_t>(den.raw);
         const int lz = count_leading_zeros(d);
         const uint32_t top = static_cast<uint32_t>((d << lz) >> 32);
@@ -175,13 +176,15 @@ struct FixedSystem {
     {
         return normalise(x.raw, y.raw, z.raw, ux, uy, uz);
     }
-    // The same, but cut to 31 bits before: each component within 1.81 ulp. What is shorter than 2^32 loses its lowest bit.
+    // The same, but cut to 31 bits before: each component within 1.81 ulp. What is shorter than 2^32 loses
+    // its lowest bit.
     static constexpr bool normalise_wide(int64_t x, int64_t y, int64_t z, Unit& ux, Unit& uy, Unit& uz)
     {
         // To 31 bits: the upper words, joined by what the lower ones hold below them.
         int up = 31;
         if constexpr (sizeof(void*) == 8) {
-            const int zeros = count_leading_zeros(static_cast<uint64_t>((x ^ (x >> 63)) | (y ^ (y >> 63)) | (z ^ (z >> 63))));
+            const int zeros =
+                count_leading_zeros(static_cast<uint64_t>((x ^ (x >> 63)) | (y ^ (y >> 63)) | (z ^ (z >> 63))));
             up = zeros < 32 ? zeros - 1 : 31;
         } else {
             up = count_leading_zeros(high_magnitude(x) | high_magnitude(y) | high_magnitude(z)) - 1;
@@ -241,7 +244,8 @@ struct FixedSystem {
     // near 1. False where all are 0.
     static constexpr bool weights(Area a, Area b, Area c, Unit& wa, Unit& wb, Unit& wc)
     {
-        const bool flip = magnitude(int64_t{a.raw}) > magnitude(int64_t{b.raw}) && magnitude(int64_t{a.raw}) > magnitude(int64_t{c.raw})
+        const bool flip = magnitude(int64_t{a.raw}) > magnitude(int64_t{b.raw})
+                && magnitude(int64_t{a.raw}) > magnitude(int64_t{c.raw})
             ? a.raw < 0
             : (magnitude(int64_t{b.raw}) > magnitude(int64_t{c.raw}) ? b.raw : c.raw) < 0;
         const int64_t x = flip ? -int64_t{a.raw} : int64_t{a.raw};
@@ -288,7 +292,8 @@ struct FixedSystem {
     // x^e for x in [0, 1].
     QRAY_INLINE static constexpr Unit power_whole(Unit x, Shine e)
     {
-        return {static_cast<int32_t>(pow_whole(static_cast<uint32_t>(x.raw) << (30 - UnitFrac), e.whole) >> (30 - UnitFrac))};
+        return {static_cast<int32_t>(pow_whole(static_cast<uint32_t>(x.raw) << (30 - UnitFrac), e.whole)
+                                     >> (30 - UnitFrac))};
     }
     QRAY_INLINE static constexpr Unit power(Unit x, Shine e)
     {
@@ -347,7 +352,8 @@ struct FloatSystem {
     static constexpr F zero = 0;
     static constexpr F black = 0;
     static constexpr F ulp = F(64) * epsilon; // of the longest distances, up to 124
-    static constexpr F least_square = sizeof(F) == 4 ? F(0x1p-100f) : F(0); // a sum of squares above it has all its bits
+    static constexpr F least_square =
+        sizeof(F) == 4 ? F(0x1p-100f) : F(0); // a sum of squares above it has all its bits
 
     QRAY_INLINE static constexpr F length(F v) { return v; }
     QRAY_INLINE static constexpr F unit(F v) { return v; }

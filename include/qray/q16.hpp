@@ -148,7 +148,8 @@ struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
     QRAY_INLINE static constexpr Length fine_sub(Moment a, Length b, int32_t fine)
     {
         const int32_t down = UnitFrac - fine;
-        const int32_t w = static_cast<int32_t>(static_cast<uint32_t>(a.raw) - (static_cast<uint32_t>(b.raw) << UnitFrac));
+        const int32_t w =
+            static_cast<int32_t>(static_cast<uint32_t>(a.raw) - (static_cast<uint32_t>(b.raw) << UnitFrac));
         return {(w + (1 << (down - 1))) >> down};
     }
     QRAY_INLINE static constexpr Length coarse(Length a, int32_t fine)
@@ -169,8 +170,8 @@ struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
     static constexpr Length sqrt(Area a) { return {static_cast<int32_t>(isqrt(static_cast<uint32_t>(a.raw)))}; }
     static constexpr Unit sqrt_unit(Cosine a) { return {static_cast<int32_t>(isqrt(static_cast<uint32_t>(a.raw)))}; }
 
-    // t = 2^k num / den for k <= most_headroom, relative error at most 2^-14. False where den is 0, t exceeds length_max,
-    // or num is 0 and den next to nothing.
+    // t = 2^k num / den for k <= most_headroom, relative error at most 2^-14. False where den is 0, t exceeds
+    // length_max, or num is 0 and den next to nothing.
     template <int A, int B>
     static constexpr bool quotient(Wide<A, 16> num, Wide<B, 16> den, int k, Length& t)
     {
@@ -321,7 +322,10 @@ struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
     }
 
 private:
-    QRAY_INLINE static constexpr uint32_t square(Length a) { return static_cast<uint32_t>(a.raw) * static_cast<uint32_t>(a.raw); }
+    QRAY_INLINE static constexpr uint32_t square(Length a)
+    {
+        return static_cast<uint32_t>(a.raw) * static_cast<uint32_t>(a.raw);
+    }
     QRAY_INLINE static constexpr bool outside_cube(Length a, Length r)
     {
         return static_cast<uint32_t>(a.raw + r.raw) > static_cast<uint32_t>(r.raw) * 2;

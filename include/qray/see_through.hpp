@@ -28,8 +28,9 @@ struct Veils {
     }
 };
 
-// The share of light that comes through all surfaces strictly between the ray's origin and `distance`: multiplied in the
-// order of their places, so that rounding does not depend on the order in which they are found.
+// The share of light that comes through all surfaces strictly between the ray's origin and `distance`:
+// multiplied in the order of their places, so that rounding does not depend on the order in which they are
+// found.
 template <class N, Effects E>
 constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance)
 {

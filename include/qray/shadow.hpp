@@ -10,10 +10,11 @@ template <class N, Effects E>
 QRAY_INLINE constexpr bool light_blocked(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance)
 {
     bool blocked = false;
-    for_each_candidate(scene, ray, [distance] { return distance; }, [&](const auto& shape, Kind, uint32_t) QRAY_INLINE_LAMBDA {
+    const auto ask = [&](const auto& shape, Kind, uint32_t) QRAY_INLINE_LAMBDA {
         blocked = crossings_in(scene, shape, ray, distance) != 0;
         return blocked;
-    });
+    };
+    for_each_candidate(scene, ray, [distance] { return distance; }, ask);
     return blocked;
 }
 

@@ -111,8 +111,8 @@ QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Ray<N>& ray, typen
     return (near > N::length_zero) + (far > N::length_zero && far < limit);
 }
 
-// The outward unit normal at a hit, and the point: centre + r n, which lies on the sphere to 1 ulp however far the ray has come
-// and whatever its direction's length.
+// The outward unit normal at a hit, and the point: centre + r n, which lies on the sphere to 1 ulp however
+// far the ray has come and whatever its direction's length.
 template <class N>
 QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Local<N>& local, const Direction<N>& d, Point<N>& point,
                                       Direction<N>& n)

@@ -14,8 +14,8 @@ struct NoCount {
     constexpr void operator()(RayKind) const {}
 };
 
-// Where a ray meets a polygon. Corners that are not quite in one plane let a ray almost along it meet it far outside the
-// world, where differences of points would overflow: such a point is put back to the edge.
+// Where a ray meets a polygon. Corners that are not quite in one plane let a ray almost along it meet it far
+// outside the world, where differences of points would overflow: such a point is put back to the edge.
 template <class N>
 QRAY_INLINE constexpr Point<N> in_world(const Ray<N>& ray, typename N::Length t)
 {
@@ -47,10 +47,15 @@ QRAY_INLINE constexpr Point<N> on_plane([[maybe_unused]] const Point<N>& c, [[ma
 
 // The point, and the outward geometric normal there.
 template <class N, Effects E>
-QRAY_INLINE constexpr void geometry_at(const Scene<N, E>& scene, const Ray<N>& ray, const Hit<N>& hit, Point<N>& q, Direction<N>& g)
+QRAY_INLINE constexpr void geometry_at(const Scene<N, E>& scene, const Ray<N>& ray, const Hit<N>& hit, Point<N>& q,
+                                       Direction<N>& g)
 {
     // What is none of the others is the last, so that there q and g are always set.
-    constexpr Kind last = E.disc ? Kind::disc : E.patch ? Kind::patch : E.polygon ? Kind::polygon : E.cone ? Kind::cone : Kind::sphere;
+    constexpr Kind last = E.disc ? Kind::disc
+        : E.patch                ? Kind::patch
+        : E.polygon              ? Kind::polygon
+        : E.cone                 ? Kind::cone
+                                 : Kind::sphere;
     const auto is = [&hit](Kind kind) { return kind == last || hit.kind == kind; };
     if constexpr (E.sphere)
         if (is(Kind::sphere))
@@ -94,10 +99,11 @@ QRAY_INLINE constexpr Surface<N> surface_at(const Scene<N, E>& scene, const Ray<
     return {q, g, turned ? -n : n, turned ? -n_d : n_d, turned};
 }
 
-// A ray that leaves the surface in direction d; `above` tells whether n.d > 0. Where the shading normal is the geometric one,
-// or that one turned, that also tells the side.
+// A ray that leaves the surface in direction d; `above` tells whether n.d > 0. Where the shading normal is
+// the geometric one, or that one turned, that also tells the side.
 template <class N, Effects E>
-QRAY_INLINE constexpr Ray<N> leaving(const Surface<N>& s, [[maybe_unused]] Kind kind, Tag tag, const Direction<N>& d, bool above)
+QRAY_INLINE constexpr Ray<N> leaving(const Surface<N>& s, [[maybe_unused]] Kind kind, Tag tag,
+                                     const Direction<N>& d, bool above)
 {
     if constexpr (E.patch)
         if (E.shapes() == 1 || kind == Kind::patch) {
@@ -107,11 +113,12 @@ QRAY_INLINE constexpr Ray<N> leaving(const Surface<N>& s, [[maybe_unused]] Kind 
     return {step_off<N>(s.point, s.normal, above), d, tag, above != s.turned};
 }
 
-// The same for a ray that brings back a picture, given |n.d|. A step along the normal moves it to its side, and what it meets
-// in mirrors and lenses by far more; unless the ray is flat, a step along itself leads away from the surface as well.
+// The same for a ray that brings back a picture, given |n.d|. A step along the normal moves it to its side,
+// and what it meets in mirrors and lenses by far more; unless the ray is flat, a step along itself leads away
+// from the surface as well.
 template <class N, Effects E>
-QRAY_INLINE constexpr Ray<N> going_on(const Surface<N>& s, [[maybe_unused]] Kind kind, Tag tag, const Direction<N>& d, bool above,
-                                      [[maybe_unused]] typename N::Unit cosine)
+QRAY_INLINE constexpr Ray<N> going_on(const Surface<N>& s, [[maybe_unused]] Kind kind, Tag tag,
+                                      const Direction<N>& d, bool above, [[maybe_unused]] typename N::Unit cosine)
 {
     if constexpr (N::is_fixed && !IsNarrow<N>) {
         bool outward = above != s.turned;
@@ -297,7 +304,8 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count)
         } else {
             const Surface<N> s = surface_at(scene, ray, hit);
             const uint32_t material = hit.tag.material();
-            accumulate<N, E>(sum, local_light(scene, Seen<N>{s, hit.kind, hit.tag, material, ray.direction}, count), weight);
+            accumulate<N, E>(
+                sum, local_light(scene, Seen<N>{s, hit.kind, hit.tag, material, ray.direction}, count), weight);
             if constexpr (E.spawns()) {
                 if (depth < scene.max_depth.value) {
                     auto reflect = N::zero;
@@ -315,8 +323,9 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count)
                                 if (w >= scene.cutoff.value && w > N::zero) {
                                     count(RayKind::refracted);
                                     const auto cosine = -N::unit(dot<N>(s.normal, bent));
-                                    stack.value.entries[stack.value.count++] = {going_on<N, E>(s, hit.kind, hit.tag, bent, false, cosine),
-                                                                               w, static_cast<uint8_t>(depth + 1)};
+                                    stack.value.entries[stack.value.count++] = {
+                                        going_on<N, E>(s, hit.kind, hit.tag, bent, false, cosine), w,
+                                        static_cast<uint8_t>(depth + 1)};
                                 }
                             } else {
                                 reflect = reflect > N::one - glass.amount ? N::one : reflect + glass.amount;
@@ -326,7 +335,8 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count)
                     const auto w = N::unit(weight * reflect);
                     if (w >= scene.cutoff.value && w > N::zero) {
                         count(RayKind::mirrored);
-                        ray = going_on<N, E>(s, hit.kind, hit.tag, mirrored<N>(ray.direction, s.normal, s.n_d), true, -s.n_d);
+                        ray = going_on<N, E>(s, hit.kind, hit.tag,
+                                             mirrored<N>(ray.direction, s.normal, s.n_d), true, -s.n_d);
                         weight = w;
                         depth++;
                         continue;

@@ -83,9 +83,9 @@ public:
     }
 
 private:
-    // |v|^2 - (v.d)^2, to be compared with r^2, and v.d, which is at least -r unless the ball is behind. With |v| < 2^7 and
-    // 24 bits, each side of the first comparison is wrong by less than 2^-19 |v|^2; the builder adds to r what the
-    // rounded coordinates may be off.
+    // |v|^2 - (v.d)^2, to be compared with r^2, and v.d, which is at least -r unless the ball is behind. With
+    // |v| < 2^7 and 24 bits, each side of the first comparison is wrong by less than 2^-19 |v|^2; the builder
+    // adds to r what the rounded coordinates may be off.
     QRAY_INLINE Float4 outside(const BallBlock& b, Float4& along) const
     {
         constexpr float k = (1.0f - 0x1p-18f) * unit * unit;
@@ -103,7 +103,8 @@ private:
 template <class N>
 class Walk {
 public:
-    QRAY_INLINE Walk(const Tree& over, const Ray<N>& ray) : tree(over), bounded(ray), level(over.levels), top(0), mask(0)
+    QRAY_INLINE Walk(const Tree& over, const Ray<N>& ray)
+        : tree(over), bounded(ray), level(over.levels), top(0), mask(0)
     {
     }
 
@@ -112,7 +113,8 @@ public:
     uint32_t next(float limit, uint32_t& base)
     {
         // A shape may lie a little beyond its rounded limit.
-        limit = limit * ((1.0f + 0x1p-20f) * BoundedRay<N>::unit) + 0x1p-16f * BoundedRay<N>::length * BoundedRay<N>::unit;
+        limit = limit * ((1.0f + 0x1p-20f) * BoundedRay<N>::unit)
+            + 0x1p-16f * BoundedRay<N>::length * BoundedRay<N>::unit;
         for (;;) {
             while (mask == 0) {
                 if (level >= tree.levels - 1) {
@@ -151,8 +153,8 @@ private:
     } stack[Tree::max_levels];
 };
 
-// Calls visit(ShapeId) for every shape whose ball the ray may enter before limit(), until visit returns true. limit() is asked again at
-// every block, as hits come nearer.
+// Calls visit(ShapeId) for every shape whose ball the ray may enter before limit(), until visit returns true.
+// limit() is asked again at every block, as hits come nearer.
 template <class N, class Limit, class Visit>
 QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit visit)
 {

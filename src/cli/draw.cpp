@@ -25,7 +25,8 @@ public:
     Drawing(const Renderer& with, const Built& picture, uint32_t threads, Output& to, Progress& shown)
         : renderer(with), height(picture.height), stride(picture.width * 3), output(to), progress(shown)
     {
-        // Small blocks, so that no thread waits long for another at the end; of some pixels each, to pay for taking one.
+        // Small blocks, so that no thread waits long for another at the end; of some pixels each, to pay for
+        // taking one.
         const uint32_t room = static_cast<uint32_t>(sizeof pool / stride);
         block_rows = most(least(height / (32 * threads), 1024 / picture.width), 1);
         blocks = (height + block_rows - 1) / block_rows;

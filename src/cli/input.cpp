@@ -75,7 +75,8 @@ bool default_output(const char* scene, const char* suffix, char* out, size_t siz
     const char* name = slash != nullptr ? slash + 1 : scene;
     const char* dot = strrchr(name, '.');
     const size_t length = dot != nullptr && dot != name ? static_cast<size_t>(dot - name) : strlen(name);
-    return length < size && snprintf(out, size, "%.*s%s", static_cast<int>(length), name, suffix) < static_cast<int>(size);
+    return length < size
+        && snprintf(out, size, "%.*s%s", static_cast<int>(length), name, suffix) < static_cast<int>(size);
 }
 
 } // namespace qray::cli

@@ -63,7 +63,9 @@ void Kernel<N>::rows(const scene::Storage<N>& storage, uint32_t first, uint32_t 
 template <class N>
 const char* Kernel<N>::name(const scene::Storage<N>& storage)
 {
-    return balls_effects().holds(storage.effects) ? "balls" : nff_effects().holds(storage.effects) ? "nff" : "everything";
+    return balls_effects().holds(storage.effects) ? "balls"
+        : nff_effects().holds(storage.effects)    ? "nff"
+                                                  : "everything";
 }
 
 } // namespace qray::cli

@@ -53,7 +53,8 @@ bool take_number(Options& o, const char* value)
 bool take_size(Options& o, const char* value)
 {
     const char* x = strchr(value, 'x');
-    return x != nullptr && whole({value, static_cast<size_t>(x - value)}, 1, scene::Limits::resolution, o.settings.width)
+    return x != nullptr
+        && whole({value, static_cast<size_t>(x - value)}, 1, scene::Limits::resolution, o.settings.width)
         && whole(x + 1, 1, scene::Limits::resolution, o.settings.height);
 }
 

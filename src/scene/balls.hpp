@@ -1,4 +1,5 @@
-// Builds the tree of bounding balls: shapes in the order of a space-filling curve, four to a block, then blocks four to a block.
+// Builds the tree of bounding balls: shapes in the order of a space-filling curve, four to a block, then
+// blocks four to a block.
 #pragma once
 
 #include <math.h>
@@ -66,9 +67,15 @@ private:
     {
         const uint32_t i = id.index();
         switch (id.kind()) {
-        case Kind::sphere: return ball_of(s.spheres.data[i].centre, ldexp(value(s.spheres.data[i].radius), -s.spheres.data[i].fine));
+        case Kind::sphere: {
+            const Sphere<N>& sphere = s.spheres.data[i];
+            return ball_of(sphere.centre, ldexp(value(sphere.radius), -sphere.fine));
+        }
         case Kind::disc: return ball_of(s.discs.data[i].centre, value(s.discs.data[i].radius));
-        case Kind::cone: return ball_of(s.cones.data[i].middle, ldexp(value(s.cones.data[i].bound), -s.cones.data[i].fine));
+        case Kind::cone: {
+            const Cone<N>& cone = s.cones.data[i];
+            return ball_of(cone.middle, ldexp(value(cone.bound), -cone.fine));
+        }
         case Kind::polygon: return ball_of(s.polygons.data[i].middle, value(s.polygons.data[i].bound));
         case Kind::patch: break;
         }
@@ -98,8 +105,8 @@ private:
     // What the block's ball number i bounds; a radius below 0 if it is none.
     static Ball ball(const BallBlock& b, int i)
     {
-        return {static_cast<double>(b.x[i]) / length, static_cast<double>(b.y[i]) / length, static_cast<double>(b.z[i]) / length,
-                static_cast<double>(b.reach[i]) / reach};
+        return {static_cast<double>(b.x[i]) / length, static_cast<double>(b.y[i]) / length,
+                static_cast<double>(b.z[i]) / length, static_cast<double>(b.reach[i]) / reach};
     }
 
     static Ball around(const BallBlock& b)

@@ -118,7 +118,8 @@ private:
         if (surfaces <= Limits::surfaces)
             return true;
         snprintf(error.text, sizeof error.text,
-                 "the scene has %llu surfaces (a patch of n corners counts as n - 2), more than the limit of %u surfaces",
+                 "the scene has %llu surfaces (a patch of n corners counts as n - 2), "
+                 "more than the limit of %u surfaces",
                  static_cast<unsigned long long>(surfaces), Limits::surfaces);
         return false;
     }
@@ -130,16 +131,17 @@ private:
             const double step = ldexp(1 / frame.scale, -N::Length::frac);
             if (frame.radius < Limits::narrow_radius * step) {
                 snprintf(error.text, sizeof error.text,
-                         "q16 has lengths in steps of %.3g where planes reach as far as %.6g, and the scene's radius of %.3g is less "
-                         "than %.0f of them; expected a nearer 'far', or another number system",
+                         "q16 has lengths in steps of %.3g where planes reach as far as %.6g, and the scene's radius "
+                         "of %.3g is less than %.0f of them; expected a nearer 'far', or another number system",
                          step, frame.far, frame.radius, Limits::narrow_radius);
                 return false;
             }
             for (uint32_t i = 0; i < d.fill_count; i++)
-                if (const Texture& t = d.fills[i].texture; t.kind != TextureKind::none && t.size < Limits::narrow_cell * step) {
+                if (const Texture& t = d.fills[i].texture;
+                    t.kind != TextureKind::none && t.size < Limits::narrow_cell * step) {
                     snprintf(error.text, sizeof error.text,
-                             "q16 has lengths in steps of %.3g here, and a texture's size of %.3g is less than 1/%.0f of one; expected "
-                             "a larger one, or another number system",
+                             "q16 has lengths in steps of %.3g here, and a texture's size of %.3g is less than "
+                             "1/%.0f of one; expected a larger one, or another number system",
                              step, t.size, 1 / Limits::narrow_cell);
                     return false;
                 }
@@ -188,7 +190,8 @@ private:
                 const double ulp = ldexp(1 / f.scale, -N::Length::frac), at = (eye - origin) / ulp;
                 return origin + (at - rint(at)) * ulp;
             };
-            f.origin = {moved(f.origin.x, d.view.from.x), moved(f.origin.y, d.view.from.y), moved(f.origin.z, d.view.from.z)};
+            f.origin = {moved(f.origin.x, d.view.from.x), moved(f.origin.y, d.view.from.y),
+                        moved(f.origin.z, d.view.from.z)};
         }
         return f;
     }
@@ -239,8 +242,8 @@ private:
             return vanishes(r);
     }
 
-    // The squares of less than 2^-40 of a world of +-62, to the last bit of float, are too small for it: normals would be
-    // of any length.
+    // The squares of less than 2^-40 of a world of +-62, to the last bit of float, are too small for it:
+    // normals would be of any length.
     static bool vanishes(typename N::Length r)
     {
         if constexpr (is_float)
@@ -257,7 +260,8 @@ private:
         }
         const int fine = fine_for(o.ra, sphere_world);
         const auto r = radius(ldexp(o.ra, fine));
-        s.spheres.push() = {point(o.a), r, Convert<N>::inverse(r), fine, tag, Convert<N>::rounded(frame.point(o.a), fine)};
+        s.spheres.push() = {point(o.a), r, Convert<N>::inverse(r), fine, tag,
+                            Convert<N>::rounded(frame.point(o.a), fine)};
     }
 
     void disc(const Point<N>& centre, const Vec3d& n, double r, Tag tag)
@@ -413,7 +417,8 @@ private:
             if constexpr (N::is_fixed)
                 for (; (IsNarrow<N> ? length(at) : largest(at)) > world; at = at * 0.5)
                     shift++;
-            if (shift > 30 || (is_float && largest(at) > 0x1p60)) { // so far away that it is a sun; in float, its square infinite
+            // So far away that it is a sun; in float, its square would be infinite.
+            if (shift > 30 || (is_float && largest(at) > 0x1p60)) {
                 s.suns.push() = {Convert<N>::direction(unit(at)), colour(l.colour)};
                 continue;
             }
@@ -449,11 +454,15 @@ private:
         const auto axis = [&](const Vec3d& direction, double offset, bool wraps) {
             return Convert<N>::axis(direction * k, frame.origin, frame.scale, offset, wraps);
         };
-        const auto step = [&](const Vec3d& direction, double offset) { return Convert<N>::step(axis(direction, offset, true)); };
+        const auto step = [&](const Vec3d& direction, double offset) {
+            return Convert<N>::step(axis(direction, offset, true));
+        };
         const auto lattice = [&](double offset) {
             return Lattice<N>{step({1, 0, 0}, offset), step({0, 1, 0}, offset), step({0, 0, 1}, offset)};
         };
-        const auto latest = [&t](const auto& table) { return TextureRef{t.kind, static_cast<uint16_t>(table.count - 1)}; };
+        const auto latest = [&t](const auto& table) {
+            return TextureRef{t.kind, static_cast<uint16_t>(table.count - 1)};
+        };
         const Vec3d a = length(t.axis) > 0 ? unit(t.axis) : Vec3d{0, 1, 0};
         switch (t.kind) {
         case TextureKind::none: break;

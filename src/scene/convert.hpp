@@ -78,7 +78,9 @@ struct Convert {
                 exponent = 30;
             }
             const int frac = 31 - exponent;
-            const auto row_of = [frac](double v) { return static_cast<int32_t>(llrint(ldexp(v, frac - N::Length::frac))); };
+            const auto row_of = [frac](double v) {
+                return static_cast<int32_t>(llrint(ldexp(v, frac - N::Length::frac)));
+            };
             const double cell = floor(whole);
             const double index = wraps ? fmod(cell, 4294967296.0) : fmax(-0x1p30, fmin(0x1p30, cell));
             return {row_of(r.x), row_of(r.y), row_of(r.z), frac, static_cast<int32_t>(floor(ldexp(whole - cell, frac))),

@@ -1,5 +1,5 @@
-// The fixed arrays of a desktop's scene, for one number system: what the builder fills and every Scene<N, E> can look at.
-// Tables are as long as the limits; only the pages that a scene touches cost memory.
+// The fixed arrays of a desktop's scene, for one number system: what the builder fills and every Scene<N, E>
+// can look at. Tables are as long as the limits; only the pages that a scene touches cost memory.
 #pragma once
 
 #include <type_traits>
