@@ -84,31 +84,61 @@ class Counts(unittest.TestCase):
             self.assertEqual(c["pixel"], 32 * 24)
             self.assertEqual(c["ray"], samples * 32 * 24)
             self.assertEqual(c["sphere_test"], 3 * samples * 32 * 24)
-            self.assertEqual(c["test"], c["sphere_test"])
+            self.assertEqual((c["test"], c["nearest_test"]), (c["sphere_test"],) * 2)
             self.assertEqual(c["sphere_several"], c["sphere_test"])
-            self.assertEqual(c["sphere_many"], 0)
+            self.assertEqual((c["sphere_single"], c["sphere_many"]), (0, 0))
             self.assertEqual(c["sphere_ahead"], c["sphere_test"])
             self.assertEqual(c["sphere_seen"], c["hit"])
             for name in ("shadow_ray", "disc_test", "mirrored", "refracted", "checker"):
                 self.assertEqual(c[name], 0, name)
 
-    # One ray along the axis of ten balls, five of them behind it, and of five aside.
-    def test_how_far_a_test_goes(self):
+    def one_ray(self, *lines):
+        """Of a picture of one pixel, seen from the origin along -z."""
         os.makedirs("build/study", exist_ok=True)
         path = "build/study/test_plan.nff"
         with open(path, "w") as file:
-            file.write("v from 0 0 0 at 0 0 -1 up 0 1 0 angle 1 hither 1 resolution 1 1\nshadows off\n")
-            file.writelines(f"s 0 0 {3 * i} 1\n" for i in range(-5, 6) if i)
-            file.writelines(f"s 5 0 {-3 * i} 1\n" for i in range(1, 6))
-            file.write("disc 0 0 -20 0 0 1 2\ndisc 0 0 20 0 0 1 2\n")
-            file.write("p 4 -1 -1 -30 1 -1 -30 1 1 -30 -1 1 -30\n")
-        c = self.counts(path, "1x1")
-        for name, count in (("ray", 1), ("sphere_test", 15), ("sphere_many", 15), ("sphere_ahead", 10),
+            file.write("v from 0 0 0 at 0 0 -1 up 0 1 0 angle 1 hither 1 resolution 1 1\n")
+            file.writelines(line + "\n" for line in lines)
+        return self.counts(path, "1x1")
+
+    # One ray along the axis of ten balls, five of them behind it, and of five aside.
+    def test_how_far_a_test_goes(self):
+        c = self.one_ray("shadows off", *(f"s 0 0 {3 * i} 1" for i in range(-5, 6) if i),
+                         *(f"s 5 0 {-3 * i} 1" for i in range(1, 6)),
+                         "disc 0 0 -20 0 0 1 2", "disc 0 0 20 0 0 1 2",
+                         "p 4 -1 -1 -30 1 -1 -30 1 1 -30 -1 1 -30")
+        for name, count in (("ray", 1), ("sphere_test", 15), ("sphere_several", 0), ("sphere_many", 15),
+                            ("sphere_ahead", 10),
                             ("sphere_line", 10), ("sphere_met", 5), ("sphere_seen", 1), ("disc_test", 2),
                             ("disc_several", 2), ("disc_many", 0), ("disc_ahead", 1), ("disc_met", 0),
-                            ("polygon_several", 0), ("polygon_near", 1), ("polygon_corner", 0), ("hit", 1),
+                            ("polygon_single", 1), ("polygon_several", 0), ("polygon_near", 1),
+                            ("polygon_met", 0), ("polygon_corner", 0), ("hit", 1),
                             ("kinds", 3), ("balls", 15), ("lamp", 0), ("effect_shadow", 0)):
             self.assertEqual(c[name], count, name)
+
+    # Two squares around the ray, the nearer one the second, and a triangle above it whose ball it enters.
+    def test_corners(self):
+        c = self.one_ray(*(f"p 4 -1 -1 -{z} 1 -1 -{z} 1 1 -{z} -1 1 -{z}" for z in (30, 20)),
+                         "p 3 -1 0.2 -10 1 0.2 -10 0 3 -10")
+        for name, count in (("polygon_several", 3), ("polygon_near", 3), ("polygon_met", 3),
+                            ("polygon_corner", 11), ("polygon_edge", 4), ("polygon_inside", 2),
+                            ("polygon_found", 8), ("polygon_seen", 1), ("polygon_opaque", 3)):
+            self.assertEqual(c[name], count, name)
+
+    # Across a tube of mirrors to and fro, until the depth of 5.
+    def test_inside_a_cone(self):
+        c = self.one_ray("material mirror 1", "c -9 0 0 1 9 0 0 1")
+        for name, count in (("ray", 5), ("mirrored", 4), ("cone_test", 5), ("cone_single", 5),
+                            ("cone_several", 0), ("cone_near", 5), ("cone_met", 5), ("cone_inward", 4),
+                            ("cone_seen", 5)):
+            self.assertEqual(c[name], count, name)
+
+    def test_lamps(self):
+        for number in (0, 1, 3):
+            c = self.one_ray(*["l 0 0 9"] * number, "sun 0 0 1", "s 0 0 -3 1")
+            self.assertEqual((c["hit"], c["lamp"], c["sun_lamp"]), (1, number, 1))
+            self.assertEqual(c["lamp_several"], number if number > 1 else 0)
+            self.assertEqual(c["lit"], number + 1)
 
     # The same rays as the command counts.
     def test_rays(self):

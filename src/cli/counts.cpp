@@ -60,16 +60,25 @@ bool has_roots(const Cone<Counting>& s, const Shot& ray)
 // The operations that follow `test`, and `ahead`, in their order.
 void add_test(Operation test, uint32_t count)
 {
-    const int i = static_cast<int>(test);
     add(Operation::test);
     add(test);
-    add(static_cast<Operation>(i + 1), count > 1);
-    add(static_cast<Operation>(i + 2), count > 8);
+    add(static_cast<Operation>(static_cast<int>(test) + 1 + (count > 1) + (count > 8)));
 }
 void add_place(Operation ahead, const Place& at)
 {
     add(ahead, at.ahead);
     add(static_cast<Operation>(static_cast<int>(ahead) + 1), at.line);
+}
+
+// Edges that end on either side of the ray, across its dominant axis: see corners.hpp.
+uint32_t edges_across(const Polygon<Counting>& s, const Vec<double>* vertices, const Shot& ray)
+{
+    const Shear<Counting> shear(ray.direction);
+    const auto above = [&](uint32_t i) { return shear(vertices[s.first + i] - ray.origin).y > 0; };
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < s.count; i++)
+        n += above(i) != above(i == 0 ? s.count - 1 : i - 1);
+    return n;
 }
 
 template <Effects E, class S>
@@ -81,9 +90,11 @@ void count_test(const Scene<Counting, E>& scene, const S& shape, const Shot& ray
         const Place at = place(shape.middle, shape.bound, ray, limit);
         const bool near = at.near() && at.within && !(own && ray.outward);
         add_test(Operation::cone_test, scene.cones.count);
+        add(Operation::cone_opaque, !effects.see_through);
         add_place(Operation::cone_ahead, at);
         add(Operation::cone_near, near);
         add(Operation::cone_met, near && has_roots(shape, ray));
+        add(Operation::cone_inward, near && own);
     } else if constexpr (requires { shape.inverse_radius; }) {
         const Place at = place(shape.centre, shape.radius, ray, limit);
         add_test(Operation::sphere_test, scene.spheres.count);
@@ -100,11 +111,15 @@ void count_test(const Scene<Counting, E>& scene, const S& shape, const Shot& ray
         const bool met = near && within(plane_distance(vertices[shape.first], shape.normal, ray), limit);
         if constexpr (requires { shape.count; }) {
             add_test(Operation::polygon_test, scene.polygons.count);
+            add(Operation::polygon_opaque, !effects.see_through);
             add_place(Operation::polygon_ahead, at);
             add(Operation::polygon_near, near);
+            add(Operation::polygon_met, met);
             add(Operation::polygon_corner, met ? shape.count : 0);
+            add(Operation::polygon_edge, met ? edges_across(shape, vertices, ray) : 0);
         } else {
             add_test(Operation::patch_test, scene.patches.count);
+            add(Operation::patch_opaque, !effects.see_through);
             add_place(Operation::patch_ahead, at);
             add(Operation::patch_near, near);
             add(Operation::patch_met, met);
@@ -116,10 +131,12 @@ void count_test(const Scene<Counting, E>& scene, const S& shape, const Shot& ray
 template <class S>
 void count_found(const S& shape)
 {
-    if constexpr (requires { shape.count; })
+    if constexpr (requires { shape.count; }) {
+        add(Operation::polygon_inside);
         add(Operation::polygon_found, shape.count);
-    else if constexpr (requires { shape.second; })
+    } else if constexpr (requires { shape.second; }) {
         add(Operation::patch_found);
+    }
 }
 
 constexpr Operation seen[] = {Operation::sphere_seen, Operation::disc_seen, Operation::cone_seen,
@@ -146,6 +163,7 @@ bool nearest(const Scene<Counting, E>& scene, const Shot& ray, Hit<Counting>& hi
     double limit = Counting::length_max;
     for_each_shape(scene, [&](const auto& shape, Kind, uint32_t) {
         count_test(scene, shape, ray, limit);
+        add(Operation::nearest_test);
         double t = 0;
         Local<Counting> local{};
         if (intersect_in(scene, shape, ray, limit, t, local)) {
@@ -196,6 +214,7 @@ Rgb<Counting> local_light(const Scene<Counting, E>& scene, const Seen<Counting>&
         }
     };
     add(Operation::lamp, scene.lights.count);
+    add(Operation::lamp_several, scene.lights.count > 1 ? scene.lights.count : 0);
     for (uint32_t i = 0; i < scene.lights.count; i++) {
         Vec<double> l{};
         double distance = 0;

@@ -8,36 +8,43 @@
 
 namespace qray::cli {
 
-// A `veiled` ray is one to a light in a scene where surfaces may let light through. Of a shape kind: `test`,
-// a ray and a shape; `several` and `many`, those of a list of more than one and of more than eight, which
-// compilers unroll or not; `ahead`, the shape's bounding ball is not all behind the ray; `line`, the ray's
-// whole line enters that ball; `near`, both; `met`, so is its plane or its endless cone; `corner` and
-// `found`, the corners of those whose plane is met, and of those that are; `seen`, the hit that is shaded.
+// A `veiled` ray is one to a light in a scene where surfaces may let light through; a `nearest_test`, one of
+// a ray that is not to a light. Of a shape kind: `test`, a ray and a shape; `single`, `several` and `many`,
+// those of a list of one, of up to eight and of more, and `opaque`, those in a scene that has no veiled
+// rays, of which compilers make different code; `ahead`, the shape's bounding ball is not all behind the
+// ray; `line`, the ray's whole line enters that ball; `near`, both; `met`, so is its plane or its endless
+// cone; `inward`, the ray starts on that cone, into it; `corner` and `edge`, the corners of those whose
+// plane is met, and the edges that have an end on either side of the ray, across its dominant axis; `inside`
+// and `found`, those that are met themselves, and their corners; `seen`, the hit that is shaded.
+// `lamp_several` is a lamp of more than one.
 enum class Operation : uint8_t {
-    pixel, sample, ray, shadow_ray, veiled_ray, test, veiled_test, found,
-    sphere_test, sphere_several, sphere_many, sphere_ahead, sphere_line, sphere_met, sphere_seen,
-    disc_test, disc_several, disc_many, disc_ahead, disc_met, disc_seen,
-    cone_test, cone_several, cone_many, cone_ahead, cone_line, cone_near, cone_met, cone_seen,
-    polygon_test, polygon_several, polygon_many, polygon_ahead, polygon_line, polygon_near, polygon_corner,
-    polygon_found, polygon_seen,
-    patch_test, patch_several, patch_many, patch_ahead, patch_line, patch_near, patch_met, patch_found,
-    patch_seen,
-    hit, lamp, sun_lamp, lit, shine, shine_square, shine_fraction, mirrored, refracted, glass,
+    pixel, sample, ray, shadow_ray, veiled_ray, test, nearest_test, veiled_test, found,
+    sphere_test, sphere_single, sphere_several, sphere_many, sphere_ahead, sphere_line, sphere_met,
+    sphere_seen,
+    disc_test, disc_single, disc_several, disc_many, disc_ahead, disc_met, disc_seen,
+    cone_test, cone_single, cone_several, cone_many, cone_opaque, cone_ahead, cone_line, cone_near, cone_met,
+    cone_inward, cone_seen,
+    polygon_test, polygon_single, polygon_several, polygon_many, polygon_opaque, polygon_ahead, polygon_line,
+    polygon_near, polygon_met, polygon_corner, polygon_edge, polygon_inside, polygon_found, polygon_seen,
+    patch_test, patch_single, patch_several, patch_many, patch_opaque, patch_ahead, patch_line, patch_near,
+    patch_met, patch_found, patch_seen,
+    hit, lamp, lamp_several, sun_lamp, lit, shine, shine_square, shine_fraction, mirrored, refracted, glass,
     checker, stripes, gradient, rings, noise, marble, wood, brick,
 };
 constexpr const char* operation_names[] = {
-    "pixel", "sample", "ray", "shadow_ray", "veiled_ray", "test", "veiled_test", "found",
-    "sphere_test", "sphere_several", "sphere_many", "sphere_ahead", "sphere_line", "sphere_met",
-    "sphere_seen",
-    "disc_test", "disc_several", "disc_many", "disc_ahead", "disc_met", "disc_seen",
-    "cone_test", "cone_several", "cone_many", "cone_ahead", "cone_line", "cone_near", "cone_met",
-    "cone_seen",
-    "polygon_test", "polygon_several", "polygon_many", "polygon_ahead", "polygon_line", "polygon_near",
-    "polygon_corner", "polygon_found", "polygon_seen",
-    "patch_test", "patch_several", "patch_many", "patch_ahead", "patch_line", "patch_near", "patch_met",
-    "patch_found", "patch_seen",
-    "hit", "lamp", "sun_lamp", "lit", "shine", "shine_square", "shine_fraction", "mirrored", "refracted",
-    "glass",
+    "pixel", "sample", "ray", "shadow_ray", "veiled_ray", "test", "nearest_test", "veiled_test", "found",
+    "sphere_test", "sphere_single", "sphere_several", "sphere_many", "sphere_ahead", "sphere_line",
+    "sphere_met", "sphere_seen",
+    "disc_test", "disc_single", "disc_several", "disc_many", "disc_ahead", "disc_met", "disc_seen",
+    "cone_test", "cone_single", "cone_several", "cone_many", "cone_opaque", "cone_ahead", "cone_line",
+    "cone_near", "cone_met", "cone_inward", "cone_seen",
+    "polygon_test", "polygon_single", "polygon_several", "polygon_many", "polygon_opaque", "polygon_ahead",
+    "polygon_line", "polygon_near", "polygon_met", "polygon_corner", "polygon_edge", "polygon_inside",
+    "polygon_found", "polygon_seen",
+    "patch_test", "patch_single", "patch_several", "patch_many", "patch_opaque", "patch_ahead", "patch_line",
+    "patch_near", "patch_met", "patch_found", "patch_seen",
+    "hit", "lamp", "lamp_several", "sun_lamp", "lit", "shine", "shine_square", "shine_fraction", "mirrored",
+    "refracted", "glass",
     "checker", "stripes", "gradient", "rings", "noise", "marble", "wood", "brick",
 };
 constexpr int operation_count = sizeof operation_names / sizeof *operation_names;

@@ -83,14 +83,13 @@ int unknown_board(const char* board)
 double instructions(const Calibration& costs, const OperationCounts& counts, const Effects& effects,
                     const Settings& s)
 {
-    double sum = 0;
-    for (int i = 0; i < std::min(operation_count, costs_known); i++)
-        sum += costs.cost[i] * counts.of[i];
     int called_for = 0;
     for (const scene::EffectName& e : scene::effect_names)
         called_for += effects.*e.effect && e.effect != &Effects::tree && e.effect != &Effects::grid
             && e.effect != &Effects::adaptive;
-    sum *= costs.plain + costs.effect * called_for;
+    double sum = 0;
+    for (int i = 0; i < std::min(operation_count, costs_known); i++)
+        sum += (costs.cost[i] + costs.more[i] * called_for) * counts.of[i];
     return sum * (s.levels != 0 ? costs.adaptive : s.grid != 1 ? costs.grid : 1);
 }
 

@@ -3,7 +3,8 @@ from traces of small pictures. Writes src/study/calibration.hpp, from which `qra
 
 The trace says how many instructions each step of the tracer took (cycles.py), and the desktop how often each
 operation was asked for; the costs of a step's operations are those not below 0 that leave the least squares
-of differences, each as a share of its whole picture, over all scenes: mixtures.py's and some of scenes/."""
+of differences, each as a share of its whole picture, over all scenes: mixtures.py's and some of scenes/. No
+scene that predictions are tried on may be among these."""
 
 import os
 import re
@@ -34,7 +35,7 @@ SAMPLED = {"grid": ["floor", "showcase", "market", "gravel", "shards"],
 SAMPLINGS = {"grid": ("4", {"SAMPLES": 4}), "adaptive": ("a2,0.0625", {"ADAPTIVE": "2,0.0625"})}
 
 FEW_BALLS = 8  # that compilers are asked to unroll a loop over: QRAY_UNROLL
-LISTED = ["several", "many"]
+LISTED = ["single", "several", "many"]
 
 
 def of(kind, *what):
@@ -47,35 +48,36 @@ STEPS = {
     "camera": ["sample", "pixel"], "output": ["sample", "pixel"],
     "spheres": of("sphere", "test", *LISTED, "ahead", "line", "met", "seen"),
     "discs": of("disc", "test", *LISTED, "ahead", "met", "seen"),
-    "cones": of("cone", "test", *LISTED, "ahead", "line", "near", "met", "seen"),
-    "polygons": of("polygon", "test", *LISTED, "ahead", "line", "near", "corner", "found", "seen"),
+    "cones": of("cone", "test", *LISTED, "ahead", "line", "near", "met", "inward", "seen"),
+    "polygons": of("polygon", "test", *LISTED, "ahead", "line", "near", "met", "corner", "edge", "inside",
+                   "found", "seen"),
     "patches": of("patch", "test", *LISTED, "ahead", "line", "near", "met", "found", "seen"),
-    "nearest hit": ["ray", "shadow_ray", "veiled_ray", "test", "veiled_test", "found"]
-    + [f"{kind}_{w}" for kind in ("sphere", "disc", "cone", "polygon", "patch") for w in LISTED],
-    "shading": ["ray", "shadow_ray", "hit", "lamp", "sun_lamp", "lit", "shine", "shine_square",
-                "shine_fraction", "mirrored", "refracted", "glass"],
+    "nearest hit": ["ray", "shadow_ray", "veiled_ray", "test", "nearest_test", "veiled_test", "found"]
+    + [f"{kind}_{w}" for kind in ("sphere", "disc", "cone", "polygon", "patch") for w in LISTED]
+    + [f"{kind}_opaque" for kind in ("cone", "polygon", "patch")],
+    "shading": ["ray", "shadow_ray", "hit", "lamp", "lamp_several", "sun_lamp", "lit", "shine",
+                "shine_square", "shine_fraction", "mirrored", "refracted", "glass"],
     **{texture: [texture] for texture in cycles.TEXTURES},
 }
 
 
-def least_squares(rows, wanted, ridge=1e-5):
+def least_squares(rows, wanted, ridge=1e-4):
     """x >= 0 that makes |rows x - wanted|^2 least, by coordinate descent; a little ridge shares out what the
     rows cannot tell apart. Columns are scaled to their largest."""
-    columns = len(rows[0])
-    scale = [max((r[k] for r in rows), default=0) or 1 for k in range(columns)]
-    a = [[r[k] / scale[k] for k in range(columns)] for r in rows]
-    x = [0.0] * columns
-    left = list(wanted)
+    columns = range(len(rows[0]))
+    scale = [max(r[k] for r in rows) or 1 for k in columns]
+    a = [[r[k] / scale[k] for k in columns] for r in rows]
+    square = [[sum(r[j] * r[k] for r in a) + ridge * (j == k) for j in columns] for k in columns]
+    left = [sum(r[k] * v for r, v in zip(a, wanted)) for k in columns] # of the normal equations
+    x = [0.0 for k in columns]
     for _ in range(3000):
         most = 0
-        for k in range(columns):
-            square = sum(r[k] * r[k] for r in a) + ridge
-            step = (sum(r[k] * v for r, v in zip(a, left)) - ridge * x[k]) / square
-            step = max(step, -x[k])
+        for k in columns:
+            step = max(left[k] / square[k][k], -x[k])
             if step:
                 x[k] += step
                 most = max(most, abs(step))
-                left = [v - step * r[k] for r, v in zip(a, left)]
+                left = [v - step * s for v, s in zip(left, square[k])]
         if most < 1e-9:
             break
     return [v / s for v, s in zip(x, scale)]
@@ -113,27 +115,39 @@ def shares_of(measured, step):
 
 
 def fit(measured, counted):
-    """{step: {operation: instructions}} of one board and number system."""
+    """{step: {operation: (instructions, and how many more for each effect)}} of one board and number system:
+    in a scene that calls for more effects compilers have fewer registers for each."""
     out = {}
+    effects = [effects_in(counted[scene]) for scene in measured]
     for step, parts in STEPS.items():
-        values = least_squares(rows_of(measured, counted, parts), shares_of(measured, step))
-        out[step] = dict(zip(parts, values))
+        rows, shares = rows_of(measured, counted, parts), shares_of(measured, step)
+        values = least_squares(rows, shares)
+        plain, more = 1, 0
+        if step not in cycles.TEXTURES: # which few scenes call for
+            sums = [sum(v * x for v, x in zip(values, row)) for row in rows]
+            plain, more = least_squares([[s, e * s] for s, e in zip(sums, effects)], shares)
+        out[step] = {part: (plain * v, more * v) for part, v in zip(parts, values)}
     return out
 
 
 def scaled(cost, measured, counted):
     """As fit(), where the operations of a step are known but for a factor."""
-    out = {}
+    factors = {}
     for step, known in cost.items():
-        rows = [[sum(known[p] * share for p, share in zip(known, row))]
-                for row in rows_of(measured, counted, known)]
+        rows = [[sum((known[p][0] + known[p][1] * effects_in(counted[scene])) * share
+                     for p, share in zip(known, row))]
+                for scene, row in zip(measured, rows_of(measured, counted, known))]
         # Of a step that none of these takes, as of all that they take.
-        factor = least_squares(rows, shares_of(measured, step))[0] if any(r[0] for r in rows) else None
-        out[step] = (known, factor)
-    common = [f for _, f in out.values() if f]
-    common = sum(common) / len(common)
-    return {step: {p: v * (factor or common) for p, v in known.items()}
-            for step, (known, factor) in out.items()}
+        factors[step] = least_squares(rows, shares_of(measured, step))[0] if any(r[0] for r in rows) else None
+    found = [f for f in factors.values() if f]
+    common = sum(found) / len(found)
+    return {step: {p: tuple(v * (factors[step] or common) for v in values) for p, values in known.items()}
+            for step, known in cost.items()}
+
+
+def effects_in(counts):
+    """How many, but for those of sampling, which have factors of their own."""
+    return sum(counts[e] for e in effects_of(counts) if e not in ("effect_grid", "effect_adaptive"))
 
 
 def effects_of(counts):
@@ -141,26 +155,18 @@ def effects_of(counts):
 
 
 class Costs:
-    """Of one board and number system. Beside what operations cost, all of them cost more in a scene that
-    calls for more effects, as compilers then have fewer registers for each."""
+    """Of one board and number system, as fit() finds them: of each operation in all steps."""
 
-    def __init__(self, steps, measured, counted):
-        self.of = {}
+    def __init__(self, steps):
+        self.of, self.more = {}, {}
         for parts in steps.values():
-            for part, value in parts.items():
+            for part, (value, more) in parts.items():
                 self.of[part] = self.of.get(part, 0) + value
-        self.plain, self.effect = 1, 0
-        effects = [sum(counted[s][e] for e in effects_of(counted[s])) for s in measured]
-        known = [m["instructions"] / self.predict(counted[s]) for s, m in measured.items()]
-        x, y = (sum(v) / len(v) for v in (effects, known))
-        if len(measured) > len(DOUBLE_SCENES):
-            self.effect = (sum((a - x) * (b - y) for a, b in zip(effects, known))
-                           / sum((a - x) ** 2 for a in effects))
-        self.plain = y - self.effect * x
+                self.more[part] = self.more.get(part, 0) + more
 
     def predict(self, counts):
-        effects = sum(counts[e] for e in effects_of(counts)) if self.effect else 0
-        return (self.plain + self.effect * effects) * sum(v * counts[k] for k, v in self.of.items())
+        effects = effects_in(counts)
+        return sum((v + self.more[k] * effects) * counts[k] for k, v in self.of.items())
 
 
 def fit_bytes(measured, counted, what, number):
@@ -176,7 +182,7 @@ def fit_bytes(measured, counted, what, number):
             row += [c["kinds"] - 1, c["balls"] if c["balls"] <= FEW_BALLS else 0]
         rows.append([v / m[what] for v in row])
         wanted.append((m[what] - tables) / m[what])
-    return least_squares(rows, wanted, 1e-4)
+    return least_squares(rows, wanted)
 
 
 def median(values, otherwise):
@@ -223,7 +229,7 @@ class Calibration:
             steps = scaled(fit(*soft), measured, counted)
         else:
             steps = fit(measured, counted)
-        self.costs[board, number] = Costs(steps, measured, counted)
+        self.costs[board, number] = Costs(steps)
 
     def several(self, board, number, kind):
         """Instructions by those predicted, flash and stack beyond those of one sample."""
@@ -256,9 +262,10 @@ class Calibration:
         effects = ", ".join(f"{v:.0f}" for v in flash[:-2])
         stacks = ", ".join(f"{v:.0f}" for v in stack)
         each = ", ".join(f"{costs.of.get(name, 0):.1f}" for name in names())
+        more = ", ".join(f"{costs.more.get(name, 0):.2f}" for name in names())
         return (f'    {{"{board}", "{number}", {size}, {ram}, {cycles_each:.3f}, '
-                f'{several["grid"][0]:.3f}, {several["adaptive"][0]:.3f}, '
-                f"{costs.plain:.4f}, {costs.effect:.5f},\n     {{{each}}},\n"
+                f'{several["grid"][0]:.3f}, {several["adaptive"][0]:.3f},'
+                f"\n     {{{each}}},\n     {{{more}}},\n"
                 f"     {{{effects}}}, {flash[-2]:.0f}, {flash[-1]:.0f},\n     {{{stacks}}}}},\n")
 
     def text(self):
@@ -280,8 +287,8 @@ struct Calibration {{
     unsigned flash, ram;   // bytes that the board has
     double cycles;         // an instruction, modelled
     double grid, adaptive; // instructions with several samples, by what the operations cost with one
-    double plain, effect;  // what all of them are multiplied by: plain + effect * number of effects
     double cost[{len(names())}];
+    double more[{len(names())}]; // for each effect that the scene calls for, but those of sampling
     double flash_bytes[{len(order) + 1}]; // of every program, then of each effect
     double kind_bytes, ball_bytes; // of a kind of shapes beyond the first; of a ball, up to few_balls
     double stack_bytes[{len(order) + 1}];

@@ -31,8 +31,8 @@ PARTS = {
     "rv32_virt": {"wide": 2, "square": 2, "sum": 4, "high": 1, "round": 5, "clz": 18, "word": 1},
 }
 # What is counted beside operations, and operations that the floor has in others.
-BESIDE = {"kinds", "balls", "found", "sphere_several", "sphere_many", "sphere_line", "disc_several", "disc_many",
-          "disc_ahead", "ray", "shadow_ray"}
+BESIDE = {"kinds", "balls", "found", "nearest_test", "sphere_single", "sphere_several", "sphere_many", "sphere_line",
+          "disc_single", "disc_several", "disc_many", "disc_ahead", "lamp_several", "ray", "shadow_ray"}
 SIMPLE = 1  # a 32-bit product, sum, shift, comparison or branch
 
 
