@@ -5,11 +5,19 @@
 # Optional: SIZE=WxH SAMPLES=N ADAPTIVE=LEVELS[,THRESHOLD] DEPTH=N CUTOFF=W, NAME= of the outputs,
 # OUTPUT=uart (the image for a real board), RAYS=no (do not build and run the image that counts rays).
 # Without SCENE, the board draws its test card.
+FW_SRC    := src/boards
+FW_BOARDS := $(patsubst $(FW_SRC)/%/board.mk,%,$(wildcard $(FW_SRC)/*/board.mk))
+# Shells may have variables of these names: Zephyr's a BOARD, WSL's a NAME.
+ifeq ($(origin NAME),environment)
+undefine NAME
+endif
+ifeq ($(origin BOARD)$(filter $(BOARD),$(FW_BOARDS)),environment)
+undefine BOARD
+endif
+
 ifdef BOARD
-FW_SRC := src/boards
-ifeq ($(wildcard $(FW_SRC)/$(BOARD)/board.mk),)
-$(error there is no board $(BOARD); boards are: \
-    $(filter-out common,$(patsubst $(FW_SRC)/%/board.mk,%,$(wildcard $(FW_SRC)/*/board.mk))))
+ifneq ($(words $(BOARD))$(filter-out $(FW_BOARDS),$(BOARD)),1)
+$(error there is no board $(BOARD); boards are: $(FW_BOARDS))
 endif
 include $(FW_SRC)/$(BOARD)/board.mk
 
@@ -17,13 +25,43 @@ NUMBER  ?= $(if $(SCENE),q32,float)
 NAME    ?= $(if $(SCENE),$(basename $(notdir $(SCENE))),card)
 OUTPUT  ?= semihosting
 RAYS    ?= $(if $(SCENE),yes,no)
+
+# What is wrong, each in one line. Names are of letters that neither make nor a shell takes for anything else.
+FW_DOLLAR := $$
+FW_ODD    := $(strip $(foreach c,' " ` \ ( ) < > & ; | * ? [ ] ~ : % $(FW_DOLLAR),$(findstring $c,$(SCENE)$(NAME))))
+ifneq ($(words x$(SCENE)) $(words x$(NAME)),1 1)
+$(error make cannot take a name with white space in it: SCENE=$(SCENE) NAME=$(NAME))
+endif
+ifneq ($(FW_ODD),)
+$(error make cannot take a name with $(FW_ODD) in it: SCENE=$(SCENE) NAME=$(NAME))
+endif
+ifneq ($(if $(SCENE),$(wildcard $(SCENE)),-),$(or $(SCENE),-))
+$(error there is no scene $(SCENE))
+endif
+ifeq ($(filter q16 q32 float double,$(NUMBER)),)
+$(error NUMBER=$(NUMBER): expected q16, q32, float or double)
+endif
+ifeq ($(filter semihosting uart,$(OUTPUT)),)
+$(error OUTPUT=$(OUTPUT): expected uart, or none)
+endif
+ifneq ($(if $(filter profile,$(MAKECMDGOALS)),$(filter uart,$(OUTPUT))),)
+$(error make profile has no OUTPUT=uart: it needs an image that ends)
+endif
+FW_SIZE := $(subst x, ,$(SIZE))
+ifneq ($(if $(SCENE),,$(SIZE)),)
+FW_REST := $(SIZE)
+$(foreach d,0 1 2 3 4 5 6 7 8 9,$(eval FW_REST := $(subst $d,,$(FW_REST))))
+ifneq ($(FW_REST) $(words $(FW_SIZE)) $(filter 0,$(FW_SIZE)),x 2 )
+$(error SIZE=$(SIZE): expected WIDTHxHEIGHT)
+endif
+endif
+
 FW_STEM := build/$(BOARD)/$(NAME)-$(NUMBER)
 FW_ELF  := $(FW_STEM)$(if $(filter uart,$(OUTPUT)),-uart).elf
 FW_OBJ  := $(FW_ELF:.elf=.obj)
 FW_MAIN ?= src/firmware/main.cpp
 FW_INCLUDE ?= include
 
-FW_SIZE     := $(subst x, ,$(SIZE))
 FW_OPTIONS  := -n $(NUMBER) $(if $(SIZE),-s $(SIZE)) $(if $(SAMPLES),-r $(SAMPLES)) \
     $(if $(ADAPTIVE),-a $(ADAPTIVE)) $(if $(DEPTH),-d $(DEPTH)) $(if $(CUTOFF),--cutoff $(CUTOFF))
 FW_DEFINES  := $(if $(SCENE),-DQRAY_SCENE_HEADER='"$(notdir $(FW_STEM)).hpp"',\
@@ -64,10 +102,15 @@ $(FW_OBJ)/%.o: $(FW_SRC)/common/%.cpp $(FW_OBJ)/config | firmware-tools
 $(FW_OBJ)/memory.o: FW_FLAGS += -fno-tree-loop-distribute-patterns
 
 FW_SCRIPTS := $(FW_SRC)/$(BOARD)/board.ld $(FW_SRC)/common/sections.ld
+# The linker takes three lines to say that a board is too small.
+FW_SMALL := s/.*region .\(.*\). overflowed by \(.*\) bytes/\1 of $(BOARD) is \2 bytes too small/p
+FW_LINKED = 2> $(FW_OBJ)/$(@F).link || \
+    { small=$$(sed -n "$(FW_SMALL)" $(FW_OBJ)/$(@F).link); \
+      echo "$${small:-$$(cat $(FW_OBJ)/$(@F).link)}" >&2; exit 1; }
 $(FW_ELF): $(FW_OBJ)/main.o $(FW_OBJS) $(FW_SCRIPTS)
-	@$(BOARD_TOOLS)g++ $(FW_LINK) -Wl,-Map=$(@:.elf=.map) $(filter %.o,$^) -lgcc -o $@
+	@$(BOARD_TOOLS)g++ $(FW_LINK) -Wl,-Map=$(@:.elf=.map) $(filter %.o,$^) -lgcc -o $@ $(FW_LINKED)
 $(FW_STEM)-rays.elf: $(FW_OBJ)/main-rays.o $(FW_OBJS) $(FW_SCRIPTS)
-	@$(BOARD_TOOLS)g++ $(FW_LINK) $(filter %.o,$^) -lgcc -o $@
+	@$(BOARD_TOOLS)g++ $(FW_LINK) $(filter %.o,$^) -lgcc -o $@ $(FW_LINKED)
 $(FW_ELF:.elf=.hex): $(FW_ELF)
 	@$(BOARD_TOOLS)objcopy -O ihex $< $@
 
@@ -93,7 +136,7 @@ FORCE:
 else
 run size profile:
 	@echo "usage: make $@ BOARD=board SCENE=scenes/x.nff NUMBER=q32 [SIZE=64x48] [SAMPLES=4] [ADAPTIVE=2]" >&2
-	@echo "boards: $(patsubst src/boards/%/board.mk,%,$(wildcard src/boards/*/board.mk))" >&2
+	@echo "boards: $(FW_BOARDS)" >&2
 	@exit 2
 endif
 .PHONY: run size profile firmware-tools firmware-qemu FORCE

@@ -19,9 +19,10 @@ def tools(board):
     return "riscv64-unknown-elf-" if board.startswith("rv32") else "arm-none-eabi-"
 
 
-def make(*arguments):
-    """(status, standard output and error) of make."""
+def make(*arguments, **variables):
+    """(status, standard output and error) of make, with variables in its environment."""
     environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+    environment.update(variables)
     result = subprocess.run(os.environ.get("MAKE", "make").split() + list(arguments), env=environment,
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return result.returncode, result.stdout
@@ -101,6 +102,43 @@ class Boards(unittest.TestCase):
                         self.assertNotEqual(status, 0)
                         self.assertRegex(text, message)
                         self.assertFalse(os.path.exists(f"build/{board}/{name}-float.ppm"))
+
+
+class Usage(unittest.TestCase):
+    def refused(self, said, *arguments, **environment):
+        with self.subTest(arguments=arguments):
+            status, text = make(*arguments, **environment)
+            self.assertEqual(status, 2)
+            lines = [line for line in text.splitlines() if not re.match(r"make: \*\*\* \[", line)]
+            self.assertEqual(len(lines), 1, text)
+            self.assertIn(said, lines[0])
+
+    def test_what_cannot_be(self):
+        run = ["run", "BOARD=microbit"]
+        scene = "SCENE=scenes/balls.nff"
+        self.refused("no board z80", "run", "BOARD=z80")
+        self.refused("OUTPUT=usart", *run, scene, "OUTPUT=usart")
+        self.refused("NUMBER=q8", *run, scene, "NUMBER=q8")
+        self.refused("NUMBER=:", *run, scene, "NUMBER=")
+        self.refused("no scene scenes/none.nff", *run, "SCENE=scenes/none.nff")
+        self.refused("SIZE=64", *run, "SIZE=64")
+        self.refused("SIZE=0x4", *run, "SIZE=0x4")
+        self.refused("profile", "profile", "BOARD=microbit", scene, "OUTPUT=uart")
+        for name in ("a b", "it's", 'a"b', "k(l)", "a&b", "a;b", "a:b", "a%b", "a|b", "a<b", "a*b"):
+            self.refused("make cannot", *run, f"SCENE=build/{name}.nff")
+            self.refused("make cannot", *run, f"NAME={name}")
+
+    def test_what_does_not_fit(self):
+        self.refused("ram of microbit is ", "run", "BOARD=microbit", "NAME=wide", "SIZE=6000x1")
+
+    # Of the shell that make runs in: Zephyr's tools have a BOARD, and WSL has a NAME.
+    def test_environment(self):
+        status, text = make("-n", "build/qray", BOARD="nrf52840dk", NAME="DESKTOP")
+        self.assertEqual(status, 0, text)
+        status, text = make("-n", "run", "BOARD=microbit", "SCENE=scenes/balls.nff", NAME="DESKTOP")
+        self.assertEqual(status, 0, text)
+        self.assertIn("build/microbit/balls-q32.ppm", text)
+        self.assertNotIn("DESKTOP", text)
 
 
 MAIN = '#include "boards/common/board.hpp"\n%s\nint main() { %s }\n'
