@@ -12,8 +12,8 @@ constexpr bool Effects::* flags[] = {
     &Effects::checker, &Effects::stripes, &Effects::gradient, &Effects::rings, &Effects::noise,
     &Effects::marble, &Effects::wood, &Effects::brick,
     &Effects::light, &Effects::sun, &Effects::shadow, &Effects::see_through, &Effects::highlight,
-    &Effects::fractional_shine, &Effects::mirror, &Effects::transmit, &Effects::grid, &Effects::adaptive,
-    &Effects::tree,
+    &Effects::fractional_shine, &Effects::mirror, &Effects::transmit, &Effects::eye_surface,
+    &Effects::grid, &Effects::adaptive, &Effects::tree,
 };
 
 TEST(Effects, AreFlagsAndADepth)

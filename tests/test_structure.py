@@ -24,7 +24,7 @@ FLOORS = [
     "fixed math number q16",
     "vec ray narrow plane corners reflection",
     "sphere disc cone polygon patch lattice value_noise checker stripes gradient rings noise marble wood brick"
-    " material highlight mirror transmit light sun camera",
+    " material highlight mirror transmit light sun camera eye_surface",
     "effects scene tree",
     "nearest shadow see_through trace",
     "sampler grid adaptive sink render",

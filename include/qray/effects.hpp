@@ -20,6 +20,7 @@ struct Effects {
     bool fractional_shine = false;
     // rays of higher depth
     bool mirror = false, transmit = false;
+    bool eye_surface = false; // the eye lies on a surface
     // sampling: several samples a pixel, on a grid or adaptively
     bool grid = false, adaptive = false;
     // a tree over the shapes
@@ -49,8 +50,8 @@ constexpr bool Effects::holds(const Effects& o) const
         && covers(marble, o.marble) && covers(wood, o.wood) && covers(brick, o.brick) && covers(light, o.light)
         && covers(sun, o.sun) && covers(shadow, o.shadow) && covers(see_through, o.see_through)
         && covers(highlight, o.highlight) && covers(fractional_shine, o.fractional_shine)
-        && covers(mirror, o.mirror) && covers(transmit, o.transmit) && covers(grid, o.grid)
-        && covers(adaptive, o.adaptive) && covers(tree, o.tree) && depth >= o.depth;
+        && covers(mirror, o.mirror) && covers(transmit, o.transmit) && covers(eye_surface, o.eye_surface)
+        && covers(grid, o.grid) && covers(adaptive, o.adaptive) && covers(tree, o.tree) && depth >= o.depth;
 }
 
 // The set of everything; shadows are on.
@@ -60,7 +61,7 @@ constexpr Effects everything(uint8_t depth)
     e.sphere = e.disc = e.cone = e.polygon = e.patch = true;
     e.checker = e.stripes = e.gradient = e.rings = e.noise = e.marble = e.wood = e.brick = true;
     e.light = e.sun = e.shadow = e.see_through = e.highlight = e.fractional_shine = true;
-    e.mirror = e.transmit = e.grid = e.adaptive = e.tree = true;
+    e.mirror = e.transmit = e.eye_surface = e.grid = e.adaptive = e.tree = true;
     e.depth = depth;
     return e;
 }

@@ -47,10 +47,19 @@ struct Sample<N> {
     }
 };
 
+template <class N, Effects E>
+QRAY_INLINE constexpr Ray<N> eye_ray(const Scene<N, E>& scene, const Pencil<N>& at)
+{
+    Ray<N> ray = scene.camera.ray(at);
+    if constexpr (E.eye_surface)
+        leave(scene.eye_surface.value, ray);
+    return ray;
+}
+
 template <class N, Effects E, class Count>
 constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, Count& count)
 {
-    const Rgb<N> c = trace(scene, scene.camera.ray(at), count);
+    const Rgb<N> c = trace(scene, eye_ray(scene, at), count);
     return {Sample<N>::clamped(c.x, scene.exposure), Sample<N>::clamped(c.y, scene.exposure),
             Sample<N>::clamped(c.z, scene.exposure)};
 }

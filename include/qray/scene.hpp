@@ -8,6 +8,7 @@
 #include "cone.hpp"
 #include "disc.hpp"
 #include "effects.hpp"
+#include "eye_surface.hpp"
 #include "gradient.hpp"
 #include "highlight.hpp"
 #include "light.hpp"
@@ -47,6 +48,7 @@ struct Maybe<T, false> {};
 template <class N, Effects E>
 struct Scene {
     Camera<N> camera;
+    [[no_unique_address]] Maybe<EyeSurface<N>, E.eye_surface> eye_surface{};
     Rgb<N> background;
     int32_t exposure; // colours are stored divided by 2^exposure
     [[no_unique_address]] Maybe<uint8_t, E.spawns()> max_depth{}; // at most E.depth

@@ -6,6 +6,7 @@
 
 #include "balls.hpp"
 #include "convert.hpp"
+#include "geometry.hpp"
 #include "settings.hpp"
 #include "storage.hpp"
 
@@ -17,57 +18,6 @@ struct Frame {
     double scale = 1, radius = 0, far = 0;
     Vec3d point(const Vec3d& p) const { return (p - origin) * scale; }
 };
-
-struct Box {
-    Vec3d low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    void add(const Vec3d& p, const Vec3d& extent = {})
-    {
-        low = {fmin(low.x, p.x - extent.x), fmin(low.y, p.y - extent.y), fmin(low.z, p.z - extent.z)};
-        high = {fmax(high.x, p.x + extent.x), fmax(high.y, p.y + extent.y), fmax(high.z, p.z + extent.z)};
-    }
-};
-
-// Half the extent of a circle of radius r across the unit vector n.
-inline Vec3d circle_extent(const Vec3d& n, double r)
-{
-    const auto side = [r](double c) { return r * sqrt(fmax(0, 1 - c * c)); };
-    return {side(n.x), side(n.y), side(n.z)};
-}
-
-inline void add_object(Box& box, const Description& d, const Object& o)
-{
-    switch (o.shape) {
-    case Shape::sphere: box.add(o.a, {o.ra, o.ra, o.ra}); break;
-    case Shape::disc: box.add(o.a, circle_extent(unit(o.b), o.ra)); break;
-    case Shape::cone: {
-        const Vec3d axis = unit(o.b - o.a);
-        box.add(o.a, circle_extent(axis, o.ra));
-        box.add(o.b, circle_extent(axis, o.rb));
-        break;
-    }
-    case Shape::polygon:
-    case Shape::patch:
-        for (uint32_t i = 0; i < o.count; i++)
-            box.add(d.vertices[o.vertex + i]);
-        break;
-    case Shape::plane: break;
-    }
-}
-
-// A unit vector across the unit vector n.
-inline Vec3d unit_across(const Vec3d& n)
-{
-    const double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
-    return unit(cross(x <= y && x <= z ? Vec3d{1, 0, 0} : y <= z ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1}, n));
-}
-
-// A cone's ball: around the middle of the axis, through the wider rim.
-inline double cone_bound(const Object& o)
-{
-    const double half = length(o.b - o.a) / 2;
-    const double r = fmax(o.ra, o.rb);
-    return sqrt(half * half + r * r);
-}
 
 template <class N>
 class Builder {
@@ -92,6 +42,7 @@ public:
         lights();
         materials();
         camera();
+        eye_surface();
         TreeBuilder<N>(s).build();
         effects();
         return true;
@@ -114,7 +65,7 @@ private:
     {
         uint64_t surfaces = 0;
         for (uint32_t i = 0; i < d.object_count; i++)
-            surfaces += d.objects[i].shape == Shape::patch ? d.objects[i].count - 2 : 1;
+            surfaces += surfaces_of(d.objects[i]);
         if (surfaces <= Limits::surfaces)
             return true;
         snprintf(error.text, sizeof error.text,
@@ -207,7 +158,7 @@ private:
     void add(const Object& o, bool patches)
     {
         if ((o.shape == Shape::patch) != patches) {
-            place += o.shape == Shape::patch ? o.count - 2 : 1;
+            place += surfaces_of(o);
             return;
         }
         const Tag tag = make_tag(place, o.fill);
@@ -345,21 +296,10 @@ private:
         return first;
     }
 
-    Vec3d newell(const Object& o) const
-    {
-        Vec3d sum;
-        const Vec3d* v = d.vertices + o.vertex;
-        for (uint32_t i = 1; i + 1 < o.count; i++)
-            sum = sum + cross(v[i] - v[0], v[i + 1] - v[0]);
-        return sum;
-    }
-
     void polygon(const Object& o, Tag tag)
     {
         const Vec3d* v = d.vertices + o.vertex;
-        Vec3d g = cross(v[1] - v[0], v[2] - v[1]);
-        if (length(g) <= 1e-12 * length(v[1] - v[0]) * length(v[2] - v[1]))
-            g = newell(o);
+        const Vec3d g = across(v, o.count);
         const uint32_t first = push_corners(o);
         if (!(length(g) > 0) || !spans(s.vertices.data + first, o.count)) {
             s.vertices.count = first;
@@ -526,6 +466,28 @@ private:
         s.threshold = Convert<N>::unit(settings.threshold);
     }
 
+    // The first surface that the eye lies on, as far as the number system and double can tell.
+    void eye_surface()
+    {
+        double step = 0; // of coordinates as large as the world
+        if constexpr (N::is_fixed)
+            step = ldexp(1, -N::Length::frac);
+        else
+            step = 256 * double{N::epsilon};
+        const double off = step / frame.scale + 0x1p-50 * largest(d.view.from);
+        s.eye_surface = {{Tag::none}, {}};
+        for (uint32_t i = 0, at = 0; i < d.object_count; i++) {
+            const Object& o = d.objects[i];
+            for (uint32_t part = 0; part < surfaces_of(o); part++, at++) {
+                Vec3d outward;
+                if (lies_on(d, o, part, d.view.from, off, outward)) {
+                    s.eye_surface = {make_tag(at, o.fill), Convert<N>::direction(outward)};
+                    return;
+                }
+            }
+        }
+    }
+
     void effects()
     {
         Effects e;
@@ -563,6 +525,7 @@ private:
         s.shadows = d.shadows && lit && e.lights();
         e.shadow = s.shadows;
         e.see_through = e.shadow && transmits;
+        e.eye_surface = !(s.eye_surface.tag == Tag{Tag::none});
         e.tree = true;
         e.grid = settings.levels == 0 && settings.grid > 1;
         e.adaptive = settings.levels != 0;

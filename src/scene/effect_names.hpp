@@ -32,6 +32,7 @@ constexpr EffectName effect_names[] = {
     {"fractional_shine", &Effects::fractional_shine},
     {"mirror", &Effects::mirror},
     {"transmit", &Effects::transmit},
+    {"eye_surface", &Effects::eye_surface},
     {"grid", &Effects::grid},
     {"adaptive", &Effects::adaptive},
     {"tree", &Effects::tree},

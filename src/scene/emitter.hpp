@@ -127,6 +127,8 @@ private:
         });
         out.put("\ninline constexpr qray::Scene<Number, effects> scene{\n");
         camera();
+        if (e.eye_surface)
+            member("eye_surface", Single<EyeSurface<N>>{s.eye_surface});
         member("background", s.background);
         member("exposure", s.exposure);
         if (e.spawns()) {
@@ -265,6 +267,11 @@ private:
         list(normal, middle, bound, first, second, tag);
     }
 
+    void value(const EyeSurface<N>& v)
+    {
+        const auto& [tag, normal] = v;
+        list(tag, normal);
+    }
     void value(const Matte<N>& v)
     {
         const auto& [colour, ambient, diffuse] = v;

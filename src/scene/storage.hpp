@@ -35,6 +35,7 @@ template <class N>
 struct Storage {
     Effects effects;
     Camera<N> camera;
+    EyeSurface<N> eye_surface; // Tag::none: on no surface
     Rgb<N> background;
     int32_t exposure;
     uint8_t max_depth;
@@ -80,6 +81,8 @@ struct Storage {
     {
         Scene<N, E> s{};
         s.camera = camera;
+        if constexpr (E.eye_surface)
+            s.eye_surface.value = eye_surface;
         s.background = background;
         s.exposure = exposure;
         if constexpr (E.spawns()) {

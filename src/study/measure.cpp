@@ -44,7 +44,7 @@ void see(uint32_t* places)
         for (int32_t i = 0; i < c.width; i++) {
             Hit<N> hit;
             const auto at = c.row(2 * n * j + n - n * c.height) + c.right * (2 * n * i + n - n * c.width);
-            nearest(view, c.ray(at), hit);
+            nearest(view, eye_ray(view, at), hit);
             *places++ = hit.tag.place();
         }
 }

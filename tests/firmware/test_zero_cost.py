@@ -16,7 +16,7 @@ sys.path.insert(0, "tests/firmware")
 import elf  # noqa: E402
 import reduce  # noqa: E402
 
-VIEW = "v from 0 0 5 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 8 6\n"
+VIEW = "v from %s at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 8 6\n"
 LIGHT = {"light": "l 3 4 5\n", "sun": "sun 1 2 3\n"}
 SHAPE = {
     "sphere": "s 0 0 0 0.5\n",
@@ -32,7 +32,9 @@ TEXTURE = {
 MATERIAL = {
     "highlight": "highlight 0.5 shine 3.5", "mirror": "mirror 0.3", "transmit": "transmit 0.4 ior 1.5",
 }
-EFFECTS = [*SHAPE, *TEXTURE, *LIGHT, "shadow", "see_through", *MATERIAL, "grid", "adaptive"]
+# Where an eye lies on a shape.
+EYE = {"sphere": "0 0 0.5", "disc": "0 1 -1", "cone": "1 0 0.3", "polygon": "-1 -1 0", "patch": "1 1 0"}
+EFFECTS = [*SHAPE, *TEXTURE, *LIGHT, "shadow", "see_through", *MATERIAL, "eye_surface", "grid", "adaptive"]
 # What a scene lacks beside an effect: light comes through surfaces that transmit; samples are taken in one
 # way. No firmware has a tree.
 WITHOUT = {effect: {"adaptive"} for effect in [*EFFECTS, "tree"]} | {"grid": set(), "adaptive": set()}
@@ -48,7 +50,8 @@ def scene(absent):
     shapes = [text for name, text in SHAPE.items() if name not in absent]
     lights = [text for name, text in LIGHT.items() if name not in absent]
     parts = [text for name, text in MATERIAL.items() if name not in absent]
-    text = VIEW + "".join(lights) + ("shadows off\n" if "shadow" in absent else "")
+    eye = "0 0 5" if "eye_surface" in absent else next(eye for name, eye in EYE.items() if name not in absent)
+    text = VIEW % eye + "".join(lights) + ("shadows off\n" if "shadow" in absent else "")
     text += "material colour 0.5 0.6 0.7 diffuse 0.5 " + " ".join(parts) + "\n" + "".join(shapes)
     for name, axis in TEXTURE.items():
         if name not in absent:
