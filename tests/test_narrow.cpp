@@ -1,6 +1,7 @@
 // The narrow reject may turn away what a ray misses, and never what it meets.
 #include <qray/narrow.hpp>
 
+#include "scene_helpers.hpp"
 #include "shape_helpers.hpp"
 
 namespace {
@@ -53,6 +54,63 @@ TYPED_TEST(NarrowTest, NoBallThatIsMetIsTurnedAway)
     EXPECT_EQ(wrong, 0);
     EXPECT_GT(met, 50000);
     EXPECT_LE(turned_away, missed);
+}
+
+// As built, from corners that are rounded to where the bounding ball, rounded too, may not reach.
+TYPED_TEST(NarrowTest, NoTriangleThatIsMetAtACornerIsTurnedAway)
+{
+    using N = TypeParam;
+    using M = make<N>;
+    Random random(113);
+    int met = 0, wrong = 0;
+    for (int i = 0; i < 100; i++) {
+        std::string text = "v from 0 0 0 at 0 0 1 up 0 1 0 angle 40 hither 1 resolution 1 1\nmaterial\n"
+                           "s -36 -36 -36 0.1\n s 36 36 36 0.1\n"; // so that lengths are kept as they are
+        for (int k = 0; k < 20; k++) {
+            const Vec3 middle = random.point(34);
+            const double size = std::exp2(random.uniform(-5, 4));
+            text += k % 2 == 0 ? "p 3\n" : "pp 3\n";
+            for (int corner = 0; corner < 3; corner++) {
+                char line[200];
+                const Vec3 c = middle + random.direction() * size;
+                std::snprintf(line, sizeof line, "%.17g %.17g %.17g%s\n", c.x, c.y, c.z, k % 2 == 0 ? "" : "  0 0 1");
+                text += line;
+            }
+        }
+        ASSERT_TRUE(loaded<N>(text));
+        const auto& s = storage<N>();
+        const auto aim = [&](const auto& shape, const uint32_t (&at)[3]) {
+            Vec3 corner[3];
+            for (int k = 0; k < 3; k++)
+                corner[k] = value(s.vertices.data[at[k]]);
+            for (int k = 0; k < 200; k++) {
+                const double inward = std::exp2(random.uniform(-14, -1));
+                const Vec3 others = corner[(k + 1) % 3] + corner[(k + 2) % 3];
+                const Vec3 to = corner[k % 3] * (1 - inward) + others * (inward / 2);
+                // Across the ball's radius there, which it touches.
+                const Vec3 out = unit(corner[k % 3] - value(shape.middle)), side = random.direction();
+                const Vec3 from = to + unit(side - out * dot(side, out)) * random.uniform(1, 40);
+                if (length(from) > 60)
+                    continue;
+                const auto ray = M::ray(from, to - from);
+                typename N::Length t{};
+                if (!intersect(shape, s.vertices.data, ray, N::length_max, t))
+                    continue;
+                met++;
+                wrong += surely_missed(shape, NarrowRay<N>(ray));
+            }
+        };
+        for (uint32_t k = 0; k < s.polygons.count; k++) {
+            const Polygon<N>& p = s.polygons.data[k];
+            aim(p, {p.first, p.first + 1, p.first + 2});
+        }
+        for (uint32_t k = 0; k < s.patches.count; k++) {
+            const Patch<N>& p = s.patches.data[k];
+            aim(p, {p.first, p.second, p.second + 1});
+        }
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(met, 100000);
 }
 
 TYPED_TEST(NarrowTest, NoPlaneThatIsMetIsTurnedAway)

@@ -149,10 +149,11 @@ private:
 
     Point<N> point(const Vec3d& p) const { return Convert<N>::point(frame.point(p)); }
     typename N::Length radius(double r) const { return Convert<N>::length(r * frame.scale); }
-    // A bound that rounding does not make too small.
+    // A bound that rounding does not make too small. In q16 that of corners and of the middle, sqrt(3) ulp, and the 3 and
+    // more of its reject: see narrow.hpp.
     typename N::Length bound(double r) const
     {
-        return Convert<N>::length(r * frame.scale * (1 + 1e-6) + (IsNarrow<N> ? 2.0 / 1024 : 2e-6));
+        return Convert<N>::length(r * frame.scale * (1 + 1e-6) + (IsNarrow<N> ? 6.0 / 1024 : 2e-6));
     }
 
     void add(const Object& o, bool patches)
