@@ -323,10 +323,12 @@ private:
         for (uint32_t i = 1; i + 1 < o.count; i++, place++) {
             const Vec3d* v = d.vertices + o.vertex;
             const Vec3d corners[3] = {v[0], v[i], v[i + 1]};
-            const Vec3d g = cross(corners[1] - corners[0], corners[2] - corners[1]);
+            const Vec3d g = triangle_area(corners[0], corners[1], corners[2]);
             const Point<N> rounded[3] = {s.vertices.data[first], s.vertices.data[first + i],
                                          s.vertices.data[first + i + 1]};
-            if (!(length(g) > 0) || !spans(rounded, 3)) {
+            if (!(length(g) > 0)) // the parser has counted it
+                continue;
+            if (!spans(rounded, 3)) {
                 s.vanished++;
                 continue;
             }

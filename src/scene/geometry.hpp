@@ -66,7 +66,7 @@ inline double cone_bound(const Object& o)
 // Across a polygon, of any length: by its first three corners or, where these are in line, by all of them (Newell).
 inline Vec3d across(const Vec3d* v, uint32_t count)
 {
-    const Vec3d g = cross(v[1] - v[0], v[2] - v[1]);
+    const Vec3d g = triangle_area(v[0], v[1], v[2]);
     if (length(g) > 1e-12 * length(v[1] - v[0]) * length(v[2] - v[1]))
         return g;
     Vec3d sum;
@@ -117,7 +117,7 @@ inline bool lies_on(const Description& d, const Object& o, uint32_t part, const 
     case Shape::polygon: return in_polygon(v, o.count, across(v, o.count));
     case Shape::patch: {
         const Vec3d corners[3] = {v[0], v[part + 1], v[part + 2]};
-        return in_polygon(corners, 3, cross(corners[1] - corners[0], corners[2] - corners[1]));
+        return in_polygon(corners, 3, triangle_area(corners[0], corners[1], corners[2]));
     }
     }
     return false;

@@ -22,6 +22,11 @@ inline Vec3d cross(const Vec3d& a, const Vec3d& b)
 // The size of the largest component.
 inline double largest(const Vec3d& a) { return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z))); }
 
+// Twice the area of a triangle, across it: counter-clockwise seen from where it points.
+inline Vec3d triangle_area(const Vec3d& a, const Vec3d& b, const Vec3d& c)
+{
+    return cross(b - a, c - b);
+}
 // Scaled first: squares of components near either end of double's range neither overflow nor vanish.
 inline double length(const Vec3d& a)
 {
