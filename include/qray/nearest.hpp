@@ -94,9 +94,14 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
         });
     } else {
         const NarrowRay<N> narrow(ray);
-        for_each_shape(scene, [&](const auto& shape, Kind kind, uint32_t index) {
+        const auto ask = [&](const auto& shape, Kind kind, uint32_t index) __attribute__((always_inline)) {
             return !surely_missed(shape, narrow) && f(shape, kind, index);
-        });
+        };
+        // Inlined where loops are unrolled, the reject by wide products takes more registers than there are.
+        if constexpr (N::is_fixed && !IsNarrow<N> && has_wide_multiply)
+            for_each_shape(scene, [&](const auto& shape, Kind kind, uint32_t index) { return ask(shape, kind, index); });
+        else
+            for_each_shape(scene, ask);
     }
 }
 
@@ -104,7 +109,7 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
 template <class N, Effects E>
 QRAY_INLINE constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit)
 {
-    if constexpr (!N::is_fixed)
+    if constexpr (!N::is_fixed || (IsNarrow<N> && has_wide_multiply))
         hit = {}; // or the compiler warns that it may be used unset
     hit.t = N::length_max;
     hit.tag = {Tag::none};
