@@ -85,8 +85,8 @@ double instructions(const Calibration& costs, const OperationCounts& counts, con
 {
     int called_for = 0;
     for (const scene::EffectName& e : scene::effect_names)
-        called_for += effects.*e.effect && e.effect != &Effects::tree && e.effect != &Effects::grid
-            && e.effect != &Effects::adaptive;
+        called_for += effects.*e.effect && e.effect != &Effects::tree && e.effect != &Effects::eye_surface
+            && e.effect != &Effects::grid && e.effect != &Effects::adaptive;
     double sum = 0;
     for (int i = 0; i < std::min(operation_count, costs_known); i++)
         sum += (costs.cost[i] + costs.more[i] * called_for) * counts.of[i];
@@ -163,6 +163,7 @@ void draw_truth(const Options& options, const Rows& rows)
 size_t predict(const Options& options, const Rows& rows)
 {
     size_t found = 0;
+    bool spawns[sizeof renderers / sizeof *renderers] = {}; // at the first depth, the greatest
     for (const Sampling& sampling : samplings)
         for (uint32_t depth : depths) {
             Settings s = options.settings;
@@ -179,7 +180,9 @@ size_t predict(const Options& options, const Rows& rows)
                 scene::Error error;
                 if (costs == nullptr || !renderers[n]->build(description(), s, built, error))
                     continue;
-                if (depth != depths[0] && !built.effects.spawns() && depth != 1)
+                if (depth == depths[0])
+                    spawns[n] = built.effects.spawns();
+                else if (!spawns[n])
                     continue;
                 Candidate& c = candidates[found];
                 c = {costs, static_cast<int>(n), s, instructions(*costs, counts, built.effects, s), 0,

@@ -151,7 +151,7 @@ def effects_in(counts):
 
 
 def effects_of(counts):
-    return [k for k in counts if k.startswith("effect_") and k != "effect_tree"]
+    return [k for k in counts if k.startswith("effect_") and k not in ("effect_tree", "effect_eye_surface")]
 
 
 class Costs:
