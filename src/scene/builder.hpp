@@ -472,15 +472,20 @@ private:
     // The first surface that the eye lies on, as far as the number system and double can tell.
     void eye_surface()
     {
-        double step = 0; // of coordinates as large as the world
-        if constexpr (N::is_fixed)
+        // Of coordinates as large as the world; and of a radius, as much as leaves normals of unit length.
+        double step = 0, share = 0;
+        if constexpr (N::is_fixed) {
             step = ldexp(1, -N::Length::frac);
-        else
+            share = IsNarrow<N> ? 0x1p-5 : 0x1p-8;
+        } else {
             step = 256 * double{N::epsilon};
-        const double off = step / frame.scale + 0x1p-50 * largest(d.view.from);
+            share = sqrt(double{N::epsilon}) / 4;
+        }
+        const double most = step / frame.scale + 0x1p-50 * largest(d.view.from);
         s.eye_surface = {{Tag::none}, {}};
         for (uint32_t i = 0, at = 0; i < d.object_count; i++) {
             const Object& o = d.objects[i];
+            const double off = fmin(most, share * widest(o));
             for (uint32_t part = 0; part < surfaces_of(o); part++, at++) {
                 Vec3d outward;
                 if (lies_on(d, o, part, d.view.from, off, outward)) {

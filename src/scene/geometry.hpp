@@ -81,6 +81,12 @@ inline uint32_t surfaces_of(const Object& o)
     return o.shape == Shape::patch ? o.count - 2 : 1;
 }
 
+// The greatest radius of what is curved.
+inline double widest(const Object& o)
+{
+    return o.shape == Shape::sphere || o.shape == Shape::cone ? fmax(o.ra, o.rb) : HUGE_VAL;
+}
+
 // Is p no farther than `off` from an object, of a patch from the part-th triangle? Then also the outward normal there;
 // 0 at an apex. Polygons are taken for what their boxes hold of their planes: a ray from there meets nothing of them.
 inline bool lies_on(const Description& d, const Object& o, uint32_t part, const Vec3d& p, double off, Vec3d& outward)
