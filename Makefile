@@ -58,7 +58,7 @@ TESTS      = $(SCRIPTS) $(addprefix build/tests/,$(FAST)) $(addprefix build/sani
 TEST_NEEDS = build/qray build/sanitized/qray build/oracle $(VARIANTS:%=build/variants/%/qray)
 TEST_LIBS := -lgtest -lgtest_main -lquadmath -pthread
 
-build/tests/%: build/obj/tests/%.o $(LIBRARY)
+build/tests/%: build/obj/tests/%.o build/obj/tests/scene_helpers.o $(LIBRARY)
 	@mkdir -p $(@D)
 	@$(CXX) $(OPTIMISE) $^ $(TEST_LIBS) -o $@
 build/obj/tests/%.o: tests/%.cpp build/obj/gtest.hpp.gch
@@ -69,7 +69,7 @@ build/obj/tests/%.o: tests/%.cpp build/obj/gtest.hpp.gch
 SANITIZED := $(patsubst build/%,build/sanitized/%,$(LIBRARY))
 build/sanitized/qray: $(patsubst build/%,build/sanitized/%,$(COMMAND))
 	@$(CXX) -fsanitize=address,undefined $^ -pthread -o $@
-build/sanitized/tests/%: build/sanitized/obj/tests/%.o $(SANITIZED)
+build/sanitized/tests/%: build/sanitized/obj/tests/%.o build/sanitized/obj/tests/scene_helpers.o $(SANITIZED)
 	@mkdir -p $(@D)
 	@$(CXX) -fsanitize=address,undefined $^ $(TEST_LIBS) -o $@
 build/sanitized/obj/src/%.o: src/%.cpp build/obj/flags

@@ -41,6 +41,27 @@ struct RayCount {
     uint64_t operator[](RayKind kind) const { return rays[static_cast<int>(kind)]; }
 };
 
+} // namespace qray::test
+
+namespace qray {
+
+// What takes long to compile: once for all tests, in tests/scene_helpers.cpp.
+#ifndef QRAY_ONCE
+#define QRAY_ONCE extern
+#endif
+#define QRAY_FOR(N) \
+    QRAY_ONCE template class scene::Builder<N>; \
+    QRAY_ONCE template Rgb<N> trace(const Scene<N, everything(scene::Settings::max_depth)>&, Ray<N>, test::RayCount&)
+QRAY_FOR(q16);
+QRAY_FOR(q32);
+QRAY_FOR(Float);
+QRAY_FOR(Double);
+#undef QRAY_FOR
+
+} // namespace qray
+
+namespace qray::test {
+
 // For a scene that has been loaded: the light along the ray through the centre of pixel (i, j), not clamped.
 template <class N, Effects E = everything(scene::Settings::max_depth)>
 Vec3 light_at(uint32_t i, uint32_t j, RayCount* count = nullptr)

@@ -1,0 +1,3 @@
+// What scene_helpers.hpp declares, for all tests.
+#define QRAY_ONCE
+#include "scene_helpers.hpp"
