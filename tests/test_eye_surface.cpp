@@ -180,4 +180,13 @@ TYPED_TEST(EyeSurfaces, NearASurfaceIsNotOnIt)
         }
 }
 
+// In a world whose steps are longer than a ball is wide.
+TYPED_TEST(EyeSurfaces, SmallBallInAVastWorldIsFarOff)
+{
+    using N = TypeParam;
+    ASSERT_TRUE(loaded<N>("v from 0 0.5 0 at 0 0 0 up 0 0 1 angle 20 hither 0 resolution 1 1\n"
+                          "s 0 0 0 0.25\n s 1e15 0 0 1\n s -1e15 0 0 1\n"));
+    EXPECT_FALSE(storage<N>().effects.eye_surface);
+}
+
 } // namespace

@@ -8,7 +8,7 @@ namespace qray {
 template <class N>
 struct EyeSurface {
     Tag tag;
-    Direction<N> normal; // outward, at the eye; 0 at an apex, which every ray leaves outward
+    Direction<N> normal; // unit, outward, at the eye; 0 at an apex, which every ray leaves outward
 };
 
 template <class N>

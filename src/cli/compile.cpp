@@ -57,7 +57,7 @@ int compile_main(int argc, char** argv)
     bool good = output.open(out);
     if (good) {
         renderers[static_cast<int>(options.number)]->emit(source, description().comment, origin,
-                                                              options.name);
+                                                          options.name);
         good = source.finish() && output.commit();
     }
     if (!good)

@@ -77,7 +77,7 @@ struct Description {
     bool shadows = true;
     double far = 0; // 0: the default, 16 scene radii
     uint32_t object_count = 0, vertex_count = 0, fill_count = 0, light_count = 0;
-    uint32_t dropped = 0; // objects without extent, left out
+    uint32_t dropped = 0; // objects and triangles of patches without extent, left out
     char comment[256] = {}; // the first comment that says something, without its '#'; else empty
     // Left as they are until the parser fills them: nobody writes a hundred megabytes to start.
     union { Object objects[Limits::objects]; };

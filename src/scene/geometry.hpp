@@ -95,19 +95,24 @@ inline bool lies_on(const Description& d, const Object& o, uint32_t part, const 
         outward = n;
         return fabs(dot(p - at, n)) <= off;
     };
-    const auto in_polygon = [&](const Vec3d* v, uint32_t count, const Vec3d& g) {
+    const auto in_polygon = [&](const Vec3d* corners, uint32_t count) {
         Box box;
         for (uint32_t i = 0; i < count; i++)
-            box.add(v[i], {off, off, off});
-        return box.holds(p) && length(g) > 0 && in_plane(v[0], unit(g));
+            box.add(corners[i], {off, off, off});
+        if (!box.holds(p)) // of a large mesh, nearly all
+            return false;
+        const Vec3d g = across(corners, count);
+        return length(g) > 0 && in_plane(corners[0], unit(g));
     };
     const Vec3d* v = d.vertices + o.vertex;
     switch (o.shape) {
-    case Shape::sphere:
-        if (!(length(p - o.a) > 0))
+    case Shape::sphere: {
+        const double distance = length(p - o.a);
+        if (!(distance > 0) || fabs(distance - o.ra) > off)
             return false;
         outward = unit(p - o.a);
-        return fabs(length(p - o.a) - o.ra) <= off;
+        return true;
+    }
     case Shape::plane: return in_plane(o.a, unit(o.b));
     case Shape::disc: return length(p - o.a) <= o.ra + off && in_plane(o.a, unit(o.b));
     case Shape::cone: {
@@ -115,15 +120,15 @@ inline bool lies_on(const Description& d, const Object& o, uint32_t part, const 
         const double height = length(o.b - o.a), growth = (o.rb - o.ra) / height;
         const double cosine = 1 / sqrt(1 + growth * growth);
         const double z = dot(p - o.a, axis), r = o.ra + growth * z;
-        const Vec3d across = p - o.a - axis * z;
-        const double rho = length(across);
-        outward = r > off && rho > 0 ? (across * (1 / rho) - axis * growth) * cosine : Vec3d{};
+        const Vec3d radial = p - o.a - axis * z;
+        const double rho = length(radial);
+        outward = r > off && rho > 0 ? (radial * (1 / rho) - axis * growth) * cosine : Vec3d{};
         return z >= -off && z <= height + off && fabs(rho - r) * cosine <= off;
     }
-    case Shape::polygon: return in_polygon(v, o.count, across(v, o.count));
+    case Shape::polygon: return in_polygon(v, o.count);
     case Shape::patch: {
         const Vec3d corners[3] = {v[0], v[part + 1], v[part + 2]};
-        return in_polygon(corners, 3, triangle_area(corners[0], corners[1], corners[2]));
+        return in_polygon(corners, 3);
     }
     }
     return false;

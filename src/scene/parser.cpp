@@ -325,7 +325,8 @@ bool Parser::corners(Shape shape) {
     if (!add(object)) return false;
     const Vec3d* v = out_.vertices + object.vertex;
     if (patch)
-        for (uint32_t i = 1; i + 1 < object.count; ++i) out_.dropped += largest(triangle_area(v[0], v[i], v[i + 1])) == 0;
+        for (uint32_t i = 1; i + 1 < object.count; ++i)
+            out_.dropped += largest(triangle_area(v[0], v[i], v[i + 1])) == 0;
     out_.vertex_count += object.count;
     return true;
 }

@@ -27,6 +27,7 @@ inline Vec3d triangle_area(const Vec3d& a, const Vec3d& b, const Vec3d& c)
 {
     return cross(b - a, c - b);
 }
+
 // Scaled first: squares of components near either end of double's range neither overflow nor vanish.
 inline double length(const Vec3d& a)
 {
