@@ -478,8 +478,8 @@ private:
             step = ldexp(1, -N::Length::frac);
             share = IsNarrow<N> ? 0x1p-5 : 0x1p-8;
         } else {
-            step = 256 * double{N::epsilon};
-            share = sqrt(double{N::epsilon}) / 4;
+            step = 256 * static_cast<double>(N::epsilon);
+            share = sqrt(static_cast<double>(N::epsilon)) / 4;
         }
         const double most = step / frame.scale + 0x1p-50 * largest(d.view.from);
         s.eye_surface = {{Tag::none}, {}};
