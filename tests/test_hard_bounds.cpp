@@ -51,8 +51,8 @@ TEST(Bounds, LightTooFarForASquareInFloatIsSeen)
                              "material colour 1 1 1 ambient 0 diffuse 1 highlight 0 shine 1 mirror 0 transmit 0 ior 1\n"
                              "disc 0 0 0 0 0 1 2e-9\n";
     scene::Error error;
-    auto& description = kept<scene::Description>();
-    auto& storage = kept<scene::Storage<Float>>();
+    auto& description = qray::test::kept<scene::Description>();
+    auto& storage = qray::test::kept<scene::Storage<Float>>();
     ASSERT_TRUE(scene::parse("far light", text.data(), text.size(), description, error)) << error.text;
     ASSERT_TRUE(scene::Builder<Float>(description, {}, storage).build(error)) << error.text;
     const auto s = storage.view<everything(6)>();

@@ -32,18 +32,22 @@ void expect_nearest_root(uint64_t x, uint32_t root) {
     ASSERT_TRUE(root == 0 ? x == 0 : r * r - r < x) << "sqrt " << x << " is less than " << root;
     ASSERT_TRUE(root == uint_max || x <= r * r + r) << "sqrt " << x << " is more than " << root;
 }
+// As this machine does it, and as machines without a square root do.
+void expect_nearest_roots(uint64_t x) {
+    expect_nearest_root(x, isqrt(x));
+    expect_nearest_root(x, detail::isqrt_by_rsqrt(x));
+}
 
 TEST(Math, RootOf64BitsIsNearest) {
     std::mt19937_64 random(1);
     for (uint64_t x = 0; x < 100000; x++)
-        expect_nearest_root(x, isqrt(x));
+        expect_nearest_roots(x);
     for (int i = 0; i < 200000; i++) {
         const uint64_t root = any_length(random) & uint_max;
         for (const uint64_t x : {root * root - 1, root * root, root * root + 1, root * root + root - 1,
                                  root * root + root, root * root + root + 1, root * root + 2 * root})
-            expect_nearest_root(x, isqrt(x));
-        const uint64_t x = any_length(random);
-        expect_nearest_root(x, isqrt(x));
+            expect_nearest_roots(x);
+        expect_nearest_roots(any_length(random));
     }
 }
 
@@ -51,8 +55,8 @@ TEST(Math, RootOf64BitsAtPowersOfTwoAndAtTheEnd) {
     for (int bit = 0; bit < 64; bit++) {
         const uint64_t power = uint64_t{1} << bit;
         for (uint64_t off = 0; off < 300; off++) {
-            expect_nearest_root(power + off, isqrt(power + off));
-            expect_nearest_root(power - off, isqrt(power - off));
+            expect_nearest_roots(power + off);
+            expect_nearest_roots(power - off);
         }
     }
     EXPECT_EQ(isqrt(uint64_t{0}), 0u);
@@ -81,6 +85,9 @@ void expect_inverse_root(uint64_t x) {
     const long double error = std::ldexp(static_cast<long double>(r.mantissa), r.exponent)
             * std::sqrt(static_cast<long double>(x)) - 1;
     ASSERT_LE(std::fabs(error), std::exp2(-31.7L)) << x;
+    // And of 64 bits at once.
+    const uint64_t v = x << (2 * (count_leading_zeros(x) / 2));
+    ASSERT_EQ(detail::rsqrt_mantissa(v), r.mantissa) << x;
 }
 
 TEST(Math, InverseRootIsWithinItsBound) {
@@ -191,8 +198,17 @@ int32_t nearest_quotient(int64_t num, uint32_t den, int shift) {
     return num < 0 ? -magnitude : magnitude;
 }
 
+// As 32-bit machines do it.
+int32_t divide_without_division(int64_t num, uint32_t den, int shift) {
+    const uint64_t n = num < 0 ? 0 - static_cast<uint64_t>(num) : static_cast<uint64_t>(num);
+    const int32_t magnitude = static_cast<int32_t>(detail::divide_by_reciprocal(n, den, shift));
+    return num < 0 ? -magnitude : magnitude;
+}
+
 #define ASSERT_QUOTIENT(num, den, shift) \
     ASSERT_EQ(divide(num, den, shift), nearest_quotient(num, den, shift)) \
+        << (num) << " * 2^" << (shift) << " / " << (den); \
+    ASSERT_EQ(divide_without_division(num, den, shift), nearest_quotient(num, den, shift)) \
         << (num) << " * 2^" << (shift) << " / " << (den)
 
 TEST(Math, QuotientIsNearest) {
@@ -206,8 +222,9 @@ TEST(Math, QuotientIsNearest) {
         // A quotient that fits, next to an integer or to a half.
         const i128 target = i128{2} * static_cast<int32_t>(random() >> (random() % 31 + 32)) + (i & 1);
         const int64_t near = static_cast<int64_t>((target * den / 2) >> shift);
-        for (int64_t off = -2; off <= 2; off++)
+        for (int64_t off = -2; off <= 2; off++) {
             ASSERT_QUOTIENT(near + off, den, shift);
+        }
     }
 }
 

@@ -31,6 +31,13 @@
 #define QRAY_SOFT_CLZ 0
 #endif
 
+// Square roots of binary64 in an instruction, beside 64-bit integers.
+#if defined(__SSE2__) || defined(__aarch64__)
+#define QRAY_DOUBLE_SQRT 1
+#else
+#define QRAY_DOUBLE_SQRT 0
+#endif
+
 // Before a loop over a scene's shapes: where code is cheap and the table is a constant, eight at a time, so
 // that its numbers become part of the code.
 #if __SIZEOF_POINTER__ == 4 && !QRAY_NARROW_MULTIPLY && !defined(__clang__)
@@ -51,6 +58,8 @@ namespace qray {
 
 // False where a 32 x 32 -> 64 bit product takes some 18 instructions rather than one or two.
 inline constexpr bool has_wide_multiply = !QRAY_NARROW_MULTIPLY;
+
+inline constexpr bool has_double_sqrt = QRAY_DOUBLE_SQRT && sizeof(void*) == 8;
 
 namespace detail {
 
@@ -509,6 +518,14 @@ QRAY_INLINE uint32_t mask_bits(Mask4 m)
     return (static_cast<uint32_t>(m[0]) & 1) | (static_cast<uint32_t>(m[1]) & 2) | (static_cast<uint32_t>(m[2]) & 4)
         | (static_cast<uint32_t>(m[3]) & 8);
 #endif
+}
+
+// The integer nearest to sqrt(x) for x >= 0. Only where has_double_sqrt. A root in binary64 is off by less than 2^-20:
+// where that takes its whole part to the next one, sqrt(x) is as near to that, so that the rest still tells.
+QRAY_INLINE uint32_t isqrt_by_double(int64_t x)
+{
+    const int64_t root = static_cast<int64_t>(sqrt_double(static_cast<double>(x)));
+    return static_cast<uint32_t>(root + (x - root * root > root));
 }
 
 // The number of the lowest bit that is set, for x > 0.

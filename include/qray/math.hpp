@@ -41,6 +41,20 @@ struct RsqrtTable {
 
 inline constexpr RsqrtTable rsqrt_table{};
 
+// For machines of 64 bits: the entry, times 2^13, and above it how much the next one is less.
+struct RsqrtSteps {
+    uint64_t value[64] = {};
+
+    constexpr RsqrtSteps()
+    {
+        for (int i = 0; i < 48; i++)
+            value[16 + i] = uint64_t{rsqrt_table.value[i]} << 13
+                | static_cast<uint64_t>(rsqrt_table.value[i] - rsqrt_table.value[i + 1]) << 32;
+    }
+};
+
+inline constexpr RsqrtSteps rsqrt_steps{};
+
 // x 4^half = high 2^32 + low in [2^62, 2^64); 0 is taken for 1.
 struct Normal {
     uint32_t high;
@@ -86,20 +100,36 @@ constexpr uint32_t rsqrt_seed(uint32_t v)
     return ((uint32_t{entry[0]} << 13) - step * (v << 6 >> 19)) >> 16;
 }
 
-// 1/sqrt(v / 2^64) in Q1.31 for v = high 2^32 + low in [2^62, 2^64), relative error at most 2^-31.7.
-// With the seed y and e = 1 - v y^2, it is y (1 + e/2 + 3/8 e^2 + ...); |e| < 2^-10.8.
-QRAY_SHARED constexpr uint32_t rsqrt_mantissa(uint32_t high, uint32_t low)
+// y (1 + e/2 + 3/8 e^2 + ...) in Q1.31 for a seed y of 1/sqrt(v) and e = 1 - v y^2, |e| < 2^-10.8; v y^2 is close to
+// 1 = 2^40, so that its value modulo 2^32 tells e.
+QRAY_INLINE constexpr uint32_t rsqrt_refined(uint32_t y, uint32_t v_y2)
 {
-    uint32_t y = rsqrt_seed(high);
-    // v y^2 is close to 1 = 2^40, so its value modulo 2^32 tells e. 35 bits of v count.
-    uint32_t upper = (high >> 16) * y * y;
-    uint32_t lower = ((high << 16 >> 13) + (low >> 29)) * y;
-    lower = (lower >> 13) * y >> 6;
-    int32_t e = -static_cast<int32_t>(upper + lower);
+    int32_t e = -static_cast<int32_t>(v_y2);
     int32_t e_short = e >> 14;
     e += static_cast<int32_t>(static_cast<uint32_t>(e_short * e_short) * 3 >> 14);
     uint32_t mantissa = (y << 19) + static_cast<uint32_t>((mul_shift_16(e, y) + 32) >> 6);
     return mantissa >> 31 != 0 ? mantissa : 0xffffffffu;
+}
+
+// 1/sqrt(v / 2^64) in Q1.31 for v = high 2^32 + low in [2^62, 2^64), relative error at most 2^-31.7. 35 bits of v
+// count.
+QRAY_SHARED constexpr uint32_t rsqrt_mantissa(uint32_t high, uint32_t low)
+{
+    uint32_t y = rsqrt_seed(high);
+    uint32_t upper = (high >> 16) * y * y;
+    uint32_t lower = ((high << 16 >> 13) + (low >> 29)) * y;
+    lower = (lower >> 13) * y >> 6;
+    return rsqrt_refined(y, upper + lower);
+}
+// The same for machines of 64 bits.
+QRAY_INLINE constexpr uint32_t rsqrt_mantissa(uint64_t v)
+{
+    const uint64_t entry = rsqrt_steps.value[v >> 58];
+    const uint32_t y = (static_cast<uint32_t>(entry)
+                        - static_cast<uint32_t>(entry >> 32) * static_cast<uint32_t>(v << 6 >> 51)) >> 16;
+    const uint32_t upper = static_cast<uint32_t>(v >> 48) * y * y;
+    const uint32_t lower = (static_cast<uint32_t>(v >> 29) & 0x7ffff) * y;
+    return rsqrt_refined(y, upper + ((lower >> 13) * y >> 6));
 }
 
 // isqrt for x < 2^58.
@@ -130,12 +160,21 @@ QRAY_NOINLINE constexpr uint32_t isqrt_large(uint64_t x)
     return root;
 }
 
+// isqrt in integers.
+constexpr uint32_t isqrt_by_rsqrt(uint64_t x)
+{
+    return x >> 58 != 0 ? isqrt_large(x) : isqrt_small(x);
+}
+
 } // namespace detail
 
 // The integer nearest to sqrt(x), saturating at 2^32 - 1. Faster below 2^58.
 constexpr uint32_t isqrt(uint64_t x)
 {
-    return x >> 58 != 0 ? detail::isqrt_large(x) : detail::isqrt_small(x);
+    if constexpr (has_double_sqrt)
+        if (!__builtin_is_constant_evaluated() && x >> 63 == 0)
+            return isqrt_by_double(static_cast<int64_t>(x));
+    return detail::isqrt_by_rsqrt(x);
 }
 
 // The integer nearest to sqrt(x); at most 2^16.
@@ -187,10 +226,11 @@ QRAY_SHARED constexpr bool unit_vector(int32_t x, int32_t y, int32_t z, int32_t*
     if ((x | y | z) == 0)
         return false;
     if constexpr (sizeof(void*) == 8) {
-        // The same in 64-bit registers: x 2^up m / 2^(32 + halve), as below, where half = up + 1 - halve.
-        const detail::Normal v = detail::normalise_even(wide_norm2(x, y, z));
-        const int64_t m = detail::rsqrt_mantissa(v.high, v.low);
-        const int down = 33 - v.half;
+        // The same in 64-bit registers: x 2^up m / 2^(32 + halve), as below, where zeros = up + 1 - halve.
+        const uint64_t square = wide_norm2(x, y, z);
+        const int zeros = count_leading_zeros(square) / 2;
+        const int64_t m = detail::rsqrt_mantissa(square << (2 * zeros));
+        const int down = 33 - zeros;
         const int64_t half = int64_t{1} << (down - 1);
         u[0] = static_cast<int32_t>((x * m + half) >> down);
         u[1] = static_cast<int32_t>((y * m + half) >> down);
@@ -253,8 +293,8 @@ constexpr Scaled reciprocal(uint32_t x)
 
 namespace detail {
 
-// n 2^shift / den to the nearest integer, halves up, saturating at 2^31 - 1.
-QRAY_SHARED constexpr uint32_t divide_magnitude(uint64_t n, uint32_t den, int shift)
+// n 2^shift / den to the nearest integer, halves up, saturating at 2^31 - 1: without a division.
+QRAY_SHARED constexpr uint32_t divide_by_reciprocal(uint64_t n, uint32_t den, int shift)
 {
     constexpr uint32_t limit = 0x7fffffff;
     uint32_t high = static_cast<uint32_t>(n >> 32);
@@ -280,8 +320,6 @@ QRAY_SHARED constexpr uint32_t divide_magnitude(uint64_t n, uint32_t den, int sh
     high += low < half;
     if (high >= half)
         return limit;
-    if constexpr (sizeof(void*) == 8)
-        return static_cast<uint32_t>((uint64_t{high} << 32 | low) / den);
     // The quotient is less than 2^31; the estimate is too small, by less than 4.
     uint32_t quotient = mul_high((high << 1) + (low >> 31), reciprocal_mantissa(den) - 1);
     uint64_t rest = (uint64_t{high} << 32 | low) - wide_mul(quotient, den);
@@ -290,6 +328,18 @@ QRAY_SHARED constexpr uint32_t divide_magnitude(uint64_t n, uint32_t den, int sh
         quotient++;
     }
     return quotient;
+}
+
+// The same by the division of a machine of 64 bits.
+constexpr uint32_t divide_magnitude(uint64_t n, uint32_t den, int shift)
+{
+    if constexpr (sizeof(void*) != 8)
+        return divide_by_reciprocal(n, den, shift);
+    constexpr uint32_t limit = 0x7fffffff;
+    if (den == 0 || n >> (63 - shift) != 0) // then the quotient is 2^31 or more
+        return limit;
+    const uint64_t quotient = ((n << shift) + (den >> 1)) / den;
+    return quotient < limit ? static_cast<uint32_t>(quotient) : limit;
 }
 
 } // namespace detail

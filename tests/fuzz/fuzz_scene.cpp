@@ -6,19 +6,12 @@
 
 #include <qray/render.hpp>
 
+#include "../zeroed.hpp"
 #include "scene/builder.hpp"
 
 namespace {
 
 using namespace qray;
-
-// Hundreds of megabytes of address space, of which a scene touches little: not in the program's file.
-template <class T>
-T& kept()
-{
-    static T* const at = static_cast<T*>(std::calloc(1, sizeof(T)));
-    return *at;
-}
 
 void expect(bool right, const char* what)
 {
@@ -41,11 +34,11 @@ template <class N>
 void draw(const scene::Description& d, const scene::Settings& settings)
 {
     scene::Error error;
-    if (!scene::Builder<N>(d, settings, kept<scene::Storage<N>>()).build(error)) {
+    if (!scene::Builder<N>(d, settings, test::kept<scene::Storage<N>>()).build(error)) {
         expect_line(error.text, "");
         return;
     }
-    const auto s = kept<scene::Storage<N>>().template view<everything(scene::Settings::max_depth)>();
+    const auto s = test::kept<scene::Storage<N>>().template view<everything(scene::Settings::max_depth)>();
     uint8_t rows[2 * 8 * 3];
     uint32_t drawn = 0;
     render<Rgb888>(s, rows, 2, [&drawn](uint32_t first, uint32_t count, const uint8_t*, uint32_t bytes) {
@@ -60,7 +53,7 @@ void draw(const scene::Description& d, const scene::Settings& settings)
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size)
 {
-    scene::Description& d = kept<scene::Description>();
+    scene::Description& d = test::kept<scene::Description>();
     scene::Error error;
     // A copy of just that size: to read beyond its end is an error that the sanitizers see.
     char* text = static_cast<char*>(std::malloc(size + (size == 0)));

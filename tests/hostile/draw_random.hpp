@@ -6,6 +6,7 @@
 
 #include <qray/render.hpp>
 
+#include "../zeroed.hpp"
 #include "random_scene.hpp"
 #include "scene/builder.hpp"
 
@@ -23,14 +24,6 @@ struct CountRays {
     void operator()(qray::RayKind kind) { rays[static_cast<int>(kind)]++; }
 };
 
-// Too large for any stack.
-template <class T>
-T& kept()
-{
-    static T* const at = static_cast<T*>(std::calloc(1, sizeof(T)));
-    return *at;
-}
-
 // The light of every sample must be in range, the number of rays within that of a binary tree of the greatest depth.
 template <class N>
 void draw_random(uint64_t seed, uint64_t count, bool energy, SceneTally& tally, uint64_t first = 0)
@@ -42,8 +35,8 @@ void draw_random(uint64_t seed, uint64_t count, bool energy, SceneTally& tally, 
         const std::string text = RandomScene(scene_seed).text(energy);
         tally.scenes++;
         scene::Error error;
-        auto& description = kept<scene::Description>();
-        auto& storage = kept<scene::Storage<N>>();
+        auto& description = test::kept<scene::Description>();
+        auto& storage = test::kept<scene::Storage<N>>();
         scene::Settings settings;
         settings.depth = 1 + static_cast<uint32_t>(i % 6);
         settings.cutoff = i % 4 == 0 ? 0 : 0.0014;

@@ -7,6 +7,7 @@
 
 #include <qray/qray.hpp>
 
+#include "../zeroed.hpp"
 #include "numbers.hpp"
 #include "scene/builder.hpp"
 
@@ -18,19 +19,10 @@ using qray::Effects;
 // unscaled, as long as the object lies within +-reach.
 inline constexpr double reach = 35;
 
-// Zeros on the heap; pages that nobody touches cost nothing.
-template <class T>
-struct Zeroed {
-    T* const at = static_cast<T*>(std::calloc(1, sizeof(T)));
-    Zeroed() = default;
-    Zeroed(const Zeroed&) = delete;
-    ~Zeroed() { std::free(at); }
-};
-
 template <class N>
 struct Bench {
-    Zeroed<qray::scene::Description> description;
-    Zeroed<qray::scene::Storage<N>> stored;
+    qray::test::Zeroed<qray::scene::Description> description;
+    qray::test::Zeroed<qray::scene::Storage<N>> stored;
     qray::scene::Description& from = *description.at;
     qray::scene::Storage<N>& storage = *stored.at;
 
