@@ -500,26 +500,6 @@ constexpr double sqrt_double(double x)
     return __builtin_bit_cast(double, detail::sqrt_bits<uint64_t, 52>(__builtin_bit_cast(uint64_t, x)));
 }
 
-// Four binary32 numbers, for bounds that are tested together. Nothing that reaches a picture is computed in them.
-typedef float Float4 __attribute__((vector_size(16)));
-typedef int32_t Mask4 __attribute__((vector_size(16)));
-
-QRAY_INLINE Float4 all_four(float x)
-{
-    return Float4{x, x, x, x};
-}
-
-// Bit i tells whether element i of m is set.
-QRAY_INLINE uint32_t mask_bits(Mask4 m)
-{
-#if defined(__SSE2__)
-    return static_cast<uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<Float4>(m)));
-#else
-    return (static_cast<uint32_t>(m[0]) & 1) | (static_cast<uint32_t>(m[1]) & 2) | (static_cast<uint32_t>(m[2]) & 4)
-        | (static_cast<uint32_t>(m[3]) & 8);
-#endif
-}
-
 // The integer nearest to sqrt(x) for x >= 0. Only where has_double_sqrt. A root in binary64 is off by less than 2^-20:
 // where that takes its whole part to the next one, sqrt(x) is as near to that, so that the rest still tells.
 QRAY_INLINE uint32_t isqrt_by_double(int64_t x)

@@ -32,9 +32,12 @@ QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typena
     if (!intersect_plane<N>(dot<N>(v, s.normal), dot<N>(ray.direction, s.normal), limit, t))
         return false;
     const Point<N> a = along<N>(t, ray.direction);
-    const Point<N> w{N::saturating_sub(a.x, v.x), N::saturating_sub(a.y, v.y), N::saturating_sub(a.z, v.z)};
+    const Point<N> w = saturating_sub<N>(a, v);
     const auto r = s.radius;
-    if constexpr (N::is_fixed && !IsNarrow<N>) // outside the cube first: the sum of squares below then fits
+    if constexpr (N::is_fixed && in_lanes<N>) { // outside the cube first: the sum of squares below then fits
+        if (outside_cube<N>(w, r))
+            return false;
+    } else if constexpr (N::is_fixed && !IsNarrow<N>)
         if (w.x > r || w.y > r || w.z > r || w.x < -r || w.y < -r || w.z < -r)
             return false;
     return !beyond<N>(w, r);

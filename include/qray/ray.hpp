@@ -51,7 +51,7 @@ struct Local {
 };
 
 // 2^fine (middle d - v), rounded once: the point of the ray at `middle`, seen from o + v.
-template <class N>
+template <InParts N>
 QRAY_INLINE constexpr Point<N> fine_offset(typename N::Length middle, const Direction<N>& d, const Point<N>& v,
                                            int32_t fine)
 {
@@ -67,12 +67,19 @@ struct Rounded {
 template <class N>
     requires(!N::is_fixed || IsNarrow<N>)
 struct Rounded<N> {};
+template <class N>
+    requires(N::is_fixed && in_lanes<N>)
+struct alignas(8) Rounded<N> { // to be read at once
+    int16_t x, y, z;
+};
 
 // p as seen from the exact point.
 template <class N>
 QRAY_INLINE constexpr Point<N> from_exact(const Point<N>& p, [[maybe_unused]] const Rounded<N>& rounded)
 {
-    if constexpr (N::is_fixed && !IsNarrow<N>) {
+    if constexpr (N::is_fixed && in_lanes<N>) {
+        return p + lengths_of<N>(rounded);
+    } else if constexpr (N::is_fixed && !IsNarrow<N>) {
         using Length = typename N::Length;
         return p + Point<N>{Length{rounded.x}, Length{rounded.y}, Length{rounded.z}};
     } else {
@@ -83,7 +90,9 @@ QRAY_INLINE constexpr Point<N> from_exact(const Point<N>& p, [[maybe_unused]] co
 template <class N>
 QRAY_INLINE constexpr Point<N> from_rounded(const Point<N>& p, [[maybe_unused]] const Rounded<N>& rounded)
 {
-    if constexpr (N::is_fixed && !IsNarrow<N>) {
+    if constexpr (N::is_fixed && in_lanes<N>) {
+        return p - lengths_of<N>(rounded);
+    } else if constexpr (N::is_fixed && !IsNarrow<N>) {
         using Length = typename N::Length;
         return p - Point<N>{Length{rounded.x}, Length{rounded.y}, Length{rounded.z}};
     } else {
@@ -92,7 +101,7 @@ QRAY_INLINE constexpr Point<N> from_rounded(const Point<N>& p, [[maybe_unused]] 
 }
 
 // Back from the block scale.
-template <class N>
+template <InParts N>
 QRAY_INLINE constexpr Point<N> coarse(const Point<N>& p, int32_t fine)
 {
     return {N::coarse(p.x, fine), N::coarse(p.y, fine), N::coarse(p.z, fine)};
@@ -121,6 +130,20 @@ struct Surface {
     Direction<N> normal;
     typename N::Unit n_d; // normal . d of the ray that sees it, <= 0
     bool turned;          // the normal was turned
+};
+
+// With the point where rays start that leave to the viewer's side, where a step takes long and registers are many.
+template <class N>
+inline constexpr bool keeps_step = in_lanes<N> && !N::is_fixed;
+template <class N>
+    requires keeps_step<N>
+struct Surface<N> {
+    Point<N> point;
+    Direction<N> geometric;
+    Direction<N> normal;
+    typename N::Unit n_d;
+    bool turned;
+    Point<N> above;
 };
 
 } // namespace qray

@@ -11,7 +11,7 @@ QRAY_INLINE constexpr Direction<N> mirrored(const Direction<N>& d, const Directi
 {
     const Direction<N> once = scaled<N>(n_d, n); // twice it may be 2, which Unit does not hold
     Direction<N> out = d - once - once;
-    N::sharpen(out.x, out.y, out.z);
+    sharpen<N>(out);
     return out;
 }
 

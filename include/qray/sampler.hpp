@@ -74,4 +74,13 @@ constexpr Pixel pixel_of(const Sample<N>& s)
     return {Sample<N>::byte(s.r), Sample<N>::byte(s.g), Sample<N>::byte(s.b)};
 }
 
+// Of one sample, where vectors are in lanes.
+template <class N, Effects E, class Count>
+QRAY_INLINE Pixel pixel_at(const Scene<N, E>& scene, const Pencil<N>& at, Count& count)
+{
+    uint8_t rgb[3]{};
+    clamped_bytes<N>(trace(scene, eye_ray(scene, at), count), scene.exposure, rgb);
+    return {rgb[0], rgb[1], rgb[2]};
+}
+
 } // namespace qray

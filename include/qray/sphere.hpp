@@ -121,9 +121,14 @@ QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Local<N>& local,
     if constexpr (IsNarrow<N>) // the middle was rounded to a coarse ulp, and `near` is off by that along the ray
         from_near = from_near - N::length(dot<N>(local.near, d));
     const Point<N> w = local.near + along<N>(from_near, d);
-    n = {N::ratio(w.x, s.inverse_radius), N::ratio(w.y, s.inverse_radius), N::ratio(w.z, s.inverse_radius)};
-    // An error of |d| shows in |w|, and between mirrors would grow from one to the next.
-    N::sharpen(n.x, n.y, n.z);
+    // An error of |d| shows in |w|, and between mirrors would grow from one to the next: so made unit again.
+    if constexpr (in_lanes<N>) {
+        n = ratio<N>(w, s.inverse_radius);
+        sharpen<N>(n);
+    } else {
+        n = {N::ratio(w.x, s.inverse_radius), N::ratio(w.y, s.inverse_radius), N::ratio(w.z, s.inverse_radius)};
+        N::sharpen(n.x, n.y, n.z);
+    }
     point = s.centre + coarse<N>(from_rounded(along<N>(s.radius, n), s.rounded), s.fine);
 }
 

@@ -96,7 +96,12 @@ QRAY_INLINE constexpr Surface<N> surface_at(const Scene<N, E>& scene, const Ray<
             n = shading_normal(scene.patches[hit.index], scene.vertices.data, scene.normals.data, ray);
     const auto n_d = N::unit(dot<N>(n, ray.direction));
     const bool turned = n_d > N::zero;
-    return {q, g, turned ? -n : n, turned ? -n_d : n_d, turned};
+    if constexpr (keeps_step<N>) {
+        const Direction<N> to_viewer = turned ? -n : n;
+        return {q, g, to_viewer, turned ? -n_d : n_d, turned, step_off<N>(q, to_viewer, true)};
+    } else {
+        return {q, g, turned ? -n : n, turned ? -n_d : n_d, turned};
+    }
 }
 
 // A ray that leaves the surface in direction d; `above` tells whether n.d > 0. Where the shading normal is
@@ -110,6 +115,9 @@ QRAY_INLINE constexpr Ray<N> leaving(const Surface<N>& s, [[maybe_unused]] Kind 
             const bool outward = dot<N>(s.geometric, d) > typename N::Cosine{};
             return {step_off<N>(s.point, s.geometric, outward), d, tag, outward};
         }
+    if constexpr (keeps_step<N>)
+        if (above)
+            return {s.above, d, tag, !s.turned};
     return {step_off<N>(s.point, s.normal, above), d, tag, above != s.turned};
 }
 
@@ -128,8 +136,13 @@ QRAY_INLINE constexpr Ray<N> going_on(const Surface<N>& s, [[maybe_unused]] Kind
                 outward = cosine > N::zero;
                 cosine = outward ? cosine : -cosine;
             }
-        if (cosine >= N::steep)
-            return {s.point + Point<N>{N::leave_along(d.x), N::leave_along(d.y), N::leave_along(d.z)}, d, tag, outward};
+        if (cosine >= N::steep) {
+            if constexpr (in_lanes<N>)
+                return {step_along<N>(s.point, d), d, tag, outward};
+            else
+                return {s.point + Point<N>{N::leave_along(d.x), N::leave_along(d.y), N::leave_along(d.z)}, d, tag,
+                        outward};
+        }
     }
     return leaving<N, E>(s, kind, tag, d, above);
 }
@@ -178,9 +191,13 @@ struct Gathered {
 template <class N>
 QRAY_INLINE constexpr void add(Rgb<N>& sum, const Rgb<N>& light, typename N::Unit k)
 {
-    sum.x += N::colour(light.x * k);
-    sum.y += N::colour(light.y * k);
-    sum.z += N::colour(light.z * k);
+    if constexpr (in_lanes<N>) {
+        sum = sum + scaled<N>(k, light);
+    } else {
+        sum.x += N::colour(light.x * k);
+        sum.y += N::colour(light.y * k);
+        sum.z += N::colour(light.z * k);
+    }
 }
 
 // One hit: all that shading asks about it.
@@ -251,7 +268,11 @@ QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N>
         for (uint32_t i = 0; i < scene.suns.count; i++)
             gather(scene, seen, scene.suns[i].from, N::length_max, scene.suns[i].colour, sum, count);
     const Vec<typename N::Unit> m = colour_at(scene, seen.material, seen.surface.point);
-    Rgb<N> light{N::colour(sum.matte.x * m.x), N::colour(sum.matte.y * m.y), N::colour(sum.matte.z * m.z)};
+    Rgb<N> light;
+    if constexpr (in_lanes<N>)
+        light = filtered<N>(sum.matte, m);
+    else
+        light = {N::colour(sum.matte.x * m.x), N::colour(sum.matte.y * m.y), N::colour(sum.matte.z * m.z)};
     if constexpr (E.highlight)
         light = light + sum.highlight.value;
     return light;
@@ -275,15 +296,10 @@ struct Stack {
 template <class N, Effects E>
 QRAY_INLINE constexpr void accumulate(Rgb<N>& sum, const Rgb<N>& light, typename N::Unit weight)
 {
-    if (!E.spawns() || weight == N::one) {
-        sum.x = N::saturating_add(sum.x, light.x);
-        sum.y = N::saturating_add(sum.y, light.y);
-        sum.z = N::saturating_add(sum.z, light.z);
-    } else {
-        sum.x = N::saturating_add(sum.x, N::colour(light.x * weight));
-        sum.y = N::saturating_add(sum.y, N::colour(light.y * weight));
-        sum.z = N::saturating_add(sum.z, N::colour(light.z * weight));
-    }
+    if (!E.spawns() || weight == N::one)
+        saturating_add<N>(sum, light);
+    else
+        saturating_add<N>(sum, light, weight);
 }
 
 // The light that comes back along an eye ray, not yet clamped to [0, 1], divided by 2^exposure.

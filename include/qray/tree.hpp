@@ -1,18 +1,19 @@
-// A flat tree of bounding balls over all shapes, four to a block: block b of a level bounds what blocks 4b to 4b + 3 of
-// the level below hold, and those of level 0 each bound four shapes. No pointers, no recursion.
+// A flat tree of bounding balls over all shapes, n = bound_lanes to a block: block b of a level bounds what blocks n b
+// to n b + n - 1 of the level below hold, and those of level 0 each bound n shapes. No pointers, no recursion.
 //
 // It only says which shapes a ray may meet: conservatively, in binary32, whatever the number system.
 #pragma once
 
+#include "lanes.hpp"
 #include "ray.hpp"
 
 namespace qray {
 
 // In the units of BoundedRay.
 struct BallBlock {
-    Float4 x, y, z;
-    Float4 reach;  // the radius, by the length of a direction
-    Float4 square; // of that; -infinity: no ball
+    Bounds x, y, z;
+    Bounds reach;  // the radius, by the length of a direction
+    Bounds square; // of that; -infinity: no ball
 };
 
 // A shape's kind and its index in the table of that kind.
@@ -26,7 +27,7 @@ constexpr ShapeId shape_id(Kind kind, uint32_t index) { return {static_cast<uint
 struct Tree {
     static constexpr int max_levels = 12;
     const BallBlock* blocks;
-    const ShapeId* shapes;        // four for each block of level 0
+    const ShapeId* shapes;        // bound_lanes for each block of level 0
     uint32_t first[max_levels];   // block of each level
     int32_t levels;
     uint32_t top;                 // blocks of the highest level: few
@@ -42,14 +43,13 @@ public:
     static constexpr float unit = raw ? static_cast<float>(int64_t{1} << 30) : 1;
 
     explicit QRAY_INLINE BoundedRay(const Ray<N>& ray)
-        : ox(all_four(as_float(ray.origin.x))), oy(all_four(as_float(ray.origin.y))),
-          oz(all_four(as_float(ray.origin.z))), dx(all_four(as_float(ray.direction.x))),
-          dy(all_four(as_float(ray.direction.y))), dz(all_four(as_float(ray.direction.z)))
     {
+        spread(ray.origin, ox, oy, oz);
+        spread(ray.direction, dx, dy, dz);
         if constexpr (raw)
             static_assert(N::Length::frac == 24 && N::Unit::frac == 30);
         if constexpr (IsNarrow<N>) { // the direction's length is wrong in the 14th bit
-            const Float4 k = 1.5f - 0.5f * (dx * dx + dy * dy + dz * dz);
+            const Bounds k = 1.5f - 0.5f * (dx * dx + dy * dy + dz * dz);
             dx *= k;
             dy *= k;
             dz *= k;
@@ -59,15 +59,15 @@ public:
     // Which balls of a block the ray may enter.
     QRAY_INLINE uint32_t enters(const BallBlock& b) const
     {
-        Float4 along;
-        const Float4 apart = outside(b, along);
+        Bounds along;
+        const Bounds apart = outside(b, along);
         return mask_bits((apart <= b.square) & ~sign(along + b.reach));
     }
     // Which it may enter before `limit`, times length and unit.
     QRAY_INLINE uint32_t enters(const BallBlock& b, float limit) const
     {
-        Float4 along;
-        const Float4 apart = outside(b, along);
+        Bounds along;
+        const Bounds apart = outside(b, along);
         return mask_bits((apart <= b.square) & ~sign(along + b.reach) & (along - b.reach <= limit));
     }
 
@@ -86,17 +86,33 @@ private:
     // |v|^2 - (v.d)^2, to be compared with r^2, and v.d, which is at least -r unless the ball is behind. With
     // |v| < 2^7 and 24 bits, each side of the first comparison is wrong by less than 2^-19 |v|^2; the builder
     // adds to r what the rounded coordinates may be off.
-    QRAY_INLINE Float4 outside(const BallBlock& b, Float4& along) const
+    QRAY_INLINE Bounds outside(const BallBlock& b, Bounds& along) const
     {
         constexpr float k = (1.0f - 0x1p-18f) * unit * unit;
-        const Float4 x = b.x - ox, y = b.y - oy, z = b.z - oz;
-        along = x * dx + y * dy + z * dz;
-        const Float4 square = x * x + y * y + z * z;
-        return square * Float4{k, k, k, k} - along * along;
+        const Bounds x = b.x - ox, y = b.y - oy, z = b.z - oz;
+        along = mul_add(z, dz, mul_add(y, dy, x * dx));
+        const Bounds square = mul_add(z, z, mul_add(y, y, x * x));
+        return square * k - along * along;
+    }
+    template <class L>
+    QRAY_INLINE static void spread(const Vec<L>& v, Bounds& x, Bounds& y, Bounds& z)
+    {
+#if QRAY_LANES
+        if constexpr (raw) {
+            const Bounds all = __builtin_convertvector(halves(v.lanes), Bounds);
+            x = __builtin_shufflevector(all, all, 0, 0, 0, 0, 0, 0, 0, 0);
+            y = __builtin_shufflevector(all, all, 2, 2, 2, 2, 2, 2, 2, 2);
+            z = __builtin_shufflevector(all, all, 4, 4, 4, 4, 4, 4, 4, 4);
+            return;
+        }
+#endif
+        x = all_bounds(as_float(v.x));
+        y = all_bounds(as_float(v.y));
+        z = all_bounds(as_float(v.z));
     }
     // The sign is the highest bit, which is the only one that mask_bits() sees.
-    QRAY_INLINE static Mask4 sign(Float4 v) { return __builtin_bit_cast(Mask4, v); }
-    Float4 ox, oy, oz, dx, dy, dz;
+    QRAY_INLINE static BoundMask sign(const Bounds& v) { return __builtin_bit_cast(BoundMask, v); }
+    Bounds ox, oy, oz, dx, dy, dz;
 };
 
 // Goes through the tree and stops at each block of level 0 that holds shapes that the ray may meet.
@@ -130,12 +146,12 @@ public:
                 }
             }
             if (level == 0) {
-                base = block * 4;
+                base = block * bound_lanes;
                 const uint32_t found = mask;
                 mask = 0;
                 return found;
             }
-            const uint32_t child = block * 4 + lowest_bit(mask);
+            const uint32_t child = block * bound_lanes + lowest_bit(mask);
             stack[level] = {block, mask & (mask - 1)};
             level--;
             block = child;
@@ -158,13 +174,13 @@ private:
 template <class N, class Limit, class Visit>
 QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit visit)
 {
-    if (tree.levels == 1) { // a dozen shapes at most: all at once
+    if (tree.levels == 1) { // three blocks at most: all at once
         const BoundedRay<N> bounded(ray);
         uint32_t mask = bounded.enters(tree.blocks[0]);
         if (tree.top > 1)
-            mask |= bounded.enters(tree.blocks[1]) << 4;
+            mask |= bounded.enters(tree.blocks[1]) << bound_lanes;
         if (tree.top > 2)
-            mask |= bounded.enters(tree.blocks[2]) << 8;
+            mask |= bounded.enters(tree.blocks[2]) << 2 * bound_lanes;
         for (; mask != 0; mask &= mask - 1)
             if (visit(tree.shapes[lowest_bit(mask)]))
                 return;

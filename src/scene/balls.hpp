@@ -1,5 +1,5 @@
-// Builds the tree of bounding balls: shapes in the order of a space-filling curve, four to a block, then
-// blocks four to a block.
+// Builds the tree of bounding balls: shapes in the order of a space-filling curve, bound_lanes to a
+// block, then blocks in the same way.
 #pragma once
 
 #include <math.h>
@@ -98,12 +98,12 @@ private:
         return 1 + (spread(b.x) | spread(b.y) << 1 | spread(b.z) << 2);
     }
 
-    using Bounds = BoundedRay<N>;
-    static constexpr double length = static_cast<double>(Bounds::length);
-    static constexpr double reach = length * static_cast<double>(Bounds::unit);
+    using Bounded = BoundedRay<N>;
+    static constexpr double length = static_cast<double>(Bounded::length);
+    static constexpr double reach = length * static_cast<double>(Bounded::unit);
 
     // What the block's ball number i bounds; a radius below 0 if it is none.
-    static Ball ball(const BallBlock& b, int i)
+    static Ball ball(const BallBlock& b, uint32_t i)
     {
         return {static_cast<double>(b.x[i]) / length, static_cast<double>(b.y[i]) / length,
                 static_cast<double>(b.z[i]) / length, static_cast<double>(b.reach[i]) / reach};
@@ -112,7 +112,7 @@ private:
     static Ball around(const BallBlock& b)
     {
         double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-        for (int i = 0; i < 4; i++) {
+        for (uint32_t i = 0; i < bound_lanes; i++) {
             const Ball part = ball(b, i);
             const double c[3] = {part.x, part.y, part.z};
             for (int k = 0; k < 3 && part.radius >= 0; k++) {
@@ -121,7 +121,7 @@ private:
             }
         }
         Ball whole{(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2, 0};
-        for (int i = 0; i < 4; i++) {
+        for (uint32_t i = 0; i < bound_lanes; i++) {
             const Ball part = ball(b, i);
             const double x = part.x - whole.x, y = part.y - whole.y, z = part.z - whole.z;
             if (part.radius >= 0)
@@ -138,12 +138,12 @@ private:
     uint32_t level(uint32_t count, BallOf of)
     {
         s.tree.first[s.tree.levels++] = s.blocks.count;
-        const uint32_t blocks = count == 0 ? 1 : (count + 3) / 4;
+        const uint32_t blocks = count == 0 ? 1 : (count + bound_lanes - 1) / bound_lanes;
         for (uint32_t b = 0; b < blocks; b++) {
             BallBlock& block = s.blocks.push();
-            for (uint32_t i = 0; i < 4; i++) {
-                const bool present = b * 4 + i < count;
-                const Ball ball = present ? of(b * 4 + i) : Ball{0, 0, 0, 0};
+            for (uint32_t i = 0; i < bound_lanes; i++) {
+                const bool present = b * bound_lanes + i < count;
+                const Ball ball = present ? of(b * bound_lanes + i) : Ball{0, 0, 0, 0};
                 block.x[i] = static_cast<float>(ball.x * length);
                 block.y[i] = static_cast<float>(ball.y * length);
                 block.z[i] = static_cast<float>(ball.z * length);

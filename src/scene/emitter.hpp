@@ -237,8 +237,7 @@ private:
     }
     void value(const Pencil<N>& v)
     {
-        const auto& [x, y, z] = v;
-        list(x, y, z);
+        list(v.x, v.y, v.z);
     }
 
     void value(const Sphere<N>& v)

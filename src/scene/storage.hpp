@@ -54,8 +54,8 @@ struct Storage {
     Array<Direction<N>, Limits::vertices> normals;
 
     static constexpr uint32_t shape_limit = Limits::objects + Limits::vertices;
-    Array<ShapeId, shape_limit + 4> shape_ids;
-    Array<BallBlock, shape_limit / 3 + 64> blocks;
+    Array<ShapeId, shape_limit + bound_lanes> shape_ids;
+    Array<BallBlock, shape_limit / (bound_lanes - 1) + 64> blocks;
     Tree tree;
 
     Array<Matte<N>, Limits::materials> mattes;
