@@ -5,7 +5,7 @@
 #   make test            build and run every test; the last line counts them
 #   make clean           remove build/
 #   make help            this list
-# Switches: NATIVE=1 for this very processor; CXX=clang++; STATIC= where there is no static C library.
+# Switches: NATIVE=1 for this very processor, LANES= without AVX2; CXX=clang++; STATIC= where there is no static C library.
 # A folder's own .mk file below adds its commands, with a comment like these, and may add to:
 #   TESTS       programs for `make test` to run, TEST_NEEDS  files that it builds before.
 
@@ -17,7 +17,7 @@ PYTHON   := python3 -B
 WARNINGS := -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Werror
 COMMON   := -std=c++20 $(WARNINGS) -ffp-contract=off -fno-math-errno -Iinclude -Isrc -MMD -MP
 PROGRAM  := -fno-exceptions -fno-rtti
-FLAGS    := $(COMMON) $(OPTIMISE) $(if $(NATIVE),-march=native)
+FLAGS    := $(COMMON) $(OPTIMISE) $(if $(NATIVE),-march=native -DQRAY_LANES=0)
 SANITIZE := $(COMMON) -g1 -Wno-maybe-uninitialized -fsanitize=address,undefined -fno-sanitize-recover=all
 
 all: build/qray
@@ -27,7 +27,14 @@ all: build/qray
 
 # The command. Linked statically, it starts in 40 thousand instructions instead of two million.
 LIBRARY := $(patsubst %.cpp,build/obj/%.o,$(wildcard src/scene/*.cpp))
-COMMAND := $(patsubst %.cpp,build/obj/%.o,$(wildcard src/cli/*.cpp)) $(LIBRARY)
+LANED   := build/obj/src/cli/lanes_float.o build/obj/src/cli/lanes_q32.o
+PLAIN   := $(filter-out $(LANED),$(patsubst %.cpp,build/obj/%.o,$(wildcard src/cli/*.cpp))) $(LIBRARY)
+# On x86-64, float and q32 also with vectors in AVX2's registers, taken where the processor has them. What headers define
+# inline is compiled in two ways then, so all of it but the renderer is made local.
+ifneq ($(filter x86_64-linux% x86_64-pc-linux%,$(shell $(CXX) -dumpmachine)),)
+LANES := -UQRAY_LANES $(if $(NATIVE),,-mavx2 -mfma -mbmi -mbmi2 -mlzcnt) $(if $(findstring clang,$(CXX)),,-fno-gnu-unique)
+endif
+COMMAND := $(PLAIN) $(if $(LANES),$(LANED))
 
 build/qray: $(COMMAND)
 	@echo "  link $@"
@@ -36,10 +43,16 @@ build/obj/src/%.o: src/%.cpp build/obj/flags
 	@echo "  compile $<"
 	@mkdir -p $(@D)
 	@$(CXX) $(FLAGS) $(PROGRAM) -c $< -o $@
+$(LANED): build/obj/%.o: %.cpp build/obj/flags
+	@echo "  compile $<"
+	@mkdir -p $(@D)
+	@$(CXX) $(FLAGS) $(PROGRAM) $(LANES) -MT $@ -c $< -o $(@:.o=.whole)
+	@$(CXX) -r -nostdlib -Wl,--force-group-allocation $(@:.o=.whole) -o $@
+	@objcopy --wildcard --keep-global-symbol='*_lanes_renderer*' $@
 # Rewritten when the flags change, so that everything is compiled again.
 build/obj/flags: FORCE
 	@mkdir -p $(@D)
-	@echo '$(CXX) $(FLAGS) $(STATIC)' | cmp -s - $@ || echo '$(CXX) $(FLAGS) $(STATIC)' > $@
+	@echo '$(CXX) $(FLAGS) $(LANES) $(STATIC)' | cmp -s - $@ || echo '$(CXX) $(FLAGS) $(LANES) $(STATIC)' > $@
 FORCE:
 
 RENDER  := $(or $(SCENE),scenes/showcase.nff)
@@ -50,9 +63,10 @@ render: build/qray
 	@echo "    pnmtopng $(PICTURE) > $(PICTURE:.ppm=.png)"
 
 # Tests: each tests/test_*.cpp is a program of its own, built with sanitizers; and those that ask more of a fast program
-# (a million rays instead of 20,000, larger pictures) once more as users would build it.
-UNIT    := $(patsubst tests/%.cpp,%,$(wildcard tests/test_*.cpp))
-FAST    := test_hostile test_math test_meshes test_metamorphic
+# (a million rays instead of 20,000, larger pictures) once more as users would run it: in lanes, if this processor can.
+HERE    := $(if $(shell grep -m1 -w avx2 /proc/cpuinfo 2> /dev/null),$(LANES))
+UNIT    := $(filter-out test_lanes,$(patsubst tests/%.cpp,%,$(wildcard tests/test_*.cpp)))
+FAST    := test_hostile test_math test_meshes test_metamorphic test_vec test_lanes
 SCRIPTS := $(wildcard tests/test_*.py tests/test_*.sh tests/*/test_*.py tests/*/test_*.sh)
 TESTS      = $(SCRIPTS) $(addprefix build/tests/,$(FAST)) $(addprefix build/sanitized/tests/,$(UNIT))
 TEST_NEEDS = build/qray build/sanitized/qray build/oracle $(VARIANTS:%=build/variants/%/qray)
@@ -64,10 +78,10 @@ build/tests/%: build/obj/tests/%.o build/obj/tests/scene_helpers.o $(LIBRARY)
 build/obj/tests/%.o: tests/%.cpp build/obj/gtest.hpp.gch
 	@echo "  compile $<"
 	@mkdir -p $(@D)
-	@$(CXX) $(FLAGS) -include build/obj/gtest.hpp -c $< -o $@
+	@$(CXX) $(FLAGS) $(HERE) -include build/obj/gtest.hpp -c $< -o $@
 
 SANITIZED := $(patsubst build/%,build/sanitized/%,$(LIBRARY))
-build/sanitized/qray: $(patsubst build/%,build/sanitized/%,$(COMMAND))
+build/sanitized/qray: $(patsubst build/%,build/sanitized/%,$(PLAIN))
 	@$(CXX) -fsanitize=address,undefined $^ -pthread -o $@
 build/sanitized/tests/%: build/sanitized/obj/tests/%.o build/sanitized/obj/tests/scene_helpers.o $(SANITIZED)
 	@mkdir -p $(@D)
@@ -83,7 +97,7 @@ build/sanitized/obj/tests/%.o: tests/%.cpp build/sanitized/obj/gtest.hpp.gch
 	@mkdir -p $(@D)
 	@$(CXX) $(SANITIZE) $(if $(filter $*,$(LONG)),-O1,-O0 -include build/sanitized/obj/gtest.hpp) -c $< -o $@
 # GoogleTest's header, compiled once.
-build/obj/gtest.hpp.gch: USED = $(FLAGS)
+build/obj/gtest.hpp.gch: USED = $(FLAGS) $(HERE)
 build/sanitized/obj/gtest.hpp.gch: USED = $(SANITIZE) -O0
 %/gtest.hpp.gch: build/obj/flags
 	@mkdir -p $(@D)
@@ -93,7 +107,7 @@ build/sanitized/obj/gtest.hpp.gch: USED = $(SANITIZE) -O0
 # The same command with q16 and q32 made in other ways, for the test that their bytes are the same.
 VARIANTS := g++_-O0 g++_-O3_-march=native clang++_-O0 clang++_-O2 clang++_-O3_-march=native
 build/variants/%/qray: build/variants/%/kernel_q16.o build/variants/%/kernel_q32.o \
-    $(filter-out %/kernel_q16.o %/kernel_q32.o,$(COMMAND))
+    $(filter-out %/kernel_q16.o %/kernel_q32.o,$(PLAIN))
 	@$(CXX) $(STATIC) $^ -pthread -o $@
 build/variants/%.o: build/obj/flags
 	@echo "  compile src/cli/$(*F).cpp with $(subst _, ,$(*D))"

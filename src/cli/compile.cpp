@@ -43,7 +43,8 @@ int compile_main(int argc, char** argv)
     if (out == nullptr)
         return 2;
     Built built{};
-    const int loaded = load(options, out, built);
+    const Renderer& renderer = *renderers[static_cast<int>(options.number)];
+    const int loaded = load(options, renderer, out, built);
     if (loaded != go_on)
         return loaded;
 
@@ -56,8 +57,7 @@ int compile_main(int argc, char** argv)
     say_origin(options, built, origin, sizeof origin);
     bool good = output.open(out);
     if (good) {
-        renderers[static_cast<int>(options.number)]->emit(source, description().comment, origin,
-                                                          options.name);
+        renderer.emit(source, description().comment, origin, options.name);
         good = source.finish() && output.commit();
     }
     if (!good)

@@ -1,5 +1,6 @@
 // The tracers that are built ahead. Of those of a number system that can draw the scene, the first is taken: they stand
-// from the tightest to the one for everything. All give the same bytes.
+// from the tightest to the one for everything. All give the same bytes. float's and q32's are built a second time with
+// vectors in registers (lanes_*.cpp), for processors that have such.
 #pragma once
 
 #include <qray/render.hpp>
@@ -49,11 +50,19 @@ void rows_of(const scene::Storage<N>& storage, uint32_t first, uint32_t last, ui
         render_row<Rgb888>(s, j, rgb + size_t{j - first} * s.camera.width * 3, counts);
 }
 
+// With all that it calls in one function: for kernels that are small.
+template <class N, Effects E>
+[[gnu::flatten]] void flat_rows_of(const scene::Storage<N>& storage, uint32_t first, uint32_t last, uint8_t* rgb,
+                                   RayCounts& counts)
+{
+    rows_of<N, E>(storage, first, last, rgb, counts);
+}
+
 template <class N>
 void Kernel<N>::rows(const scene::Storage<N>& storage, uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts)
 {
     if (balls_effects().holds(storage.effects))
-        rows_of<N, balls_effects()>(storage, first, last, rgb, counts);
+        flat_rows_of<N, balls_effects()>(storage, first, last, rgb, counts);
     else if (nff_effects().holds(storage.effects))
         rows_of<N, nff_effects()>(storage, first, last, rgb, counts);
     else

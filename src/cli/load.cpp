@@ -35,7 +35,7 @@ const char* output_name(const Options& options, const char* suffix)
     return nullptr;
 }
 
-int load(const Options& options, const char* out, Built& built)
+int load(const Options& options, const Renderer& renderer, const char* out, Built& built)
 {
     scene::Error error;
     if (!read_scene(options.scene, loaded, error)) {
@@ -45,7 +45,7 @@ int load(const Options& options, const char* out, Built& built)
     if (is_scene_file(out))
         return bad_options("'%s' is the scene itself; give another name with '-o FILE'",
                            scene::ShownName(out).text);
-    if (!renderers[static_cast<int>(options.number)]->build(loaded, options.settings, built, error)) {
+    if (!renderer.build(loaded, options.settings, built, error)) {
         fprintf(stderr, "%s: %s\n", scene::ShownName(options.scene).text, error.text);
         return 1;
     }

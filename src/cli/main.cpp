@@ -35,8 +35,8 @@ int draw_main(int argc, char** argv)
 
     const double begin = options.stats ? now() : 0;
     Built built{};
-    const Renderer& renderer = *renderers[static_cast<int>(options.number)];
-    const int loaded = load(options, out, built);
+    const Renderer& renderer = fastest_renderer(options.number);
+    const int loaded = load(options, renderer, out, built);
     if (loaded != go_on)
         return loaded;
 

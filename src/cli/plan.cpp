@@ -338,7 +338,7 @@ int plan_main(int argc, char** argv)
 
     options.number = Number::double_float; // which every scene fits
     Built built{};
-    const int loaded = load(options, "-", built);
+    const int loaded = load(options, *renderers[static_cast<int>(options.number)], "-", built);
     if (loaded != go_on)
         return loaded;
     const Rows rows(built);

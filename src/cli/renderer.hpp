@@ -1,6 +1,8 @@
 // A number system as the command sees it: it builds a scene into static storage of its own, then draws rows.
 #pragma once
 
+#include <new>
+
 #include "../scene/emitter.hpp"
 #include "kernel.hpp"
 #include "options.hpp"
@@ -29,6 +31,11 @@ struct Renderer {
 extern const Renderer q16_renderer, q32_renderer, float_renderer, double_renderer;
 inline const Renderer* const renderers[] = {&q16_renderer, &q32_renderer, &float_renderer, &double_renderer};
 
+// The same pictures with vectors in registers (include/qray/lanes.hpp): null where they were not compiled.
+extern const Renderer q32_lanes_renderer __attribute__((weak)), float_lanes_renderer __attribute__((weak));
+// What draws the fastest on this processor. Its scene's tables are not those of a compiled scene.
+const Renderer& fastest_renderer(Number number);
+
 template <class N>
 uint32_t table_bytes(const scene::Storage<N>& s)
 {
@@ -39,13 +46,38 @@ uint32_t table_bytes(const scene::Storage<N>& s)
     return static_cast<uint32_t>(sum);
 }
 
+// Where float and q32 have their tables. Those with vectors in registers are larger and share the pages, as one of the
+// two is used; with pages of their own the program would be too large for valgrind.
+alignas(64) extern uint8_t q32_pages[size_t{360} << 20], float_pages[size_t{216} << 20];
+
+template <class Storage, size_t size>
+Storage& placed_in(uint8_t (&pages)[size])
+{
+    static_assert(sizeof(Storage) <= size && alignof(Storage) <= 64);
+    return *std::launder(reinterpret_cast<Storage*>(pages));
+}
+
+template <class N>
+struct OwnStorage {
+    static inline scene::Storage<N> storage;
+};
+template <class N>
+scene::Storage<N>& storage_of()
+{
+    if constexpr (std::is_same_v<N, q32>)
+        return placed_in<scene::Storage<N>>(q32_pages);
+    else if constexpr (std::is_same_v<N, Float>)
+        return placed_in<scene::Storage<N>>(float_pages);
+    else
+        return OwnStorage<N>::storage;
+}
+
 template <class N>
 struct RendererOf {
-    static inline scene::Storage<N> storage;
-
     static bool build(const scene::Description& description, const scene::Settings& settings, Built& built,
                       scene::Error& error)
     {
+        scene::Storage<N>& storage = storage_of<N>();
         if (!scene::Builder<N>(description, settings, storage).build(error))
             return false;
         built = {storage.camera.width, storage.camera.height, storage.effects, storage.vanished,
@@ -54,11 +86,11 @@ struct RendererOf {
     }
     static void rows(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts)
     {
-        Kernel<N>::rows(storage, first, last, rgb, counts);
+        Kernel<N>::rows(storage_of<N>(), first, last, rgb, counts);
     }
     static void emit(scene::Source& out, const char* title, const char* origin, const char* name)
     {
-        scene::Emitter<N>(storage, out).emit(title, origin, name);
+        scene::Emitter<N>(storage_of<N>(), out).emit(title, origin, name);
     }
     static constexpr Renderer renderer{build, rows, emit};
 };

@@ -51,7 +51,9 @@ void print_stats(const Options& options, const scene::Description& description, 
     for (const scene::EffectName& e : scene::effect_names)
         if (built.effects.*e.effect)
             fprintf(stderr, " %s", e.name);
-    fprintf(stderr, "\nnumber: %s\nkernel: %s\n", number_names[static_cast<int>(options.number)], built.kernel);
+    const int number = static_cast<int>(options.number);
+    fprintf(stderr, "\nnumber: %s\nkernel: %s\nlanes: %s\n", number_names[number], built.kernel,
+            &fastest_renderer(options.number) == renderers[number] ? "none" : "avx2");
 
     fprintf(stderr, "width: %" PRIu32 "\nheight: %" PRIu32 "\n", built.width, built.height);
     if (settings.levels != 0)

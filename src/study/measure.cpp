@@ -37,7 +37,7 @@ template <class N>
 void see(uint32_t* places)
 {
     constexpr Effects everywhere = everything(Settings::max_depth);
-    const auto view = cli::RendererOf<N>::storage.template view<everywhere>();
+    const auto view = cli::storage_of<N>().template view<everywhere>();
     const Camera<N>& c = view.camera;
     const int32_t n = c.grid;
     for (int32_t j = 0; j < c.height; j++)

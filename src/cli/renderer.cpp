@@ -1,0 +1,30 @@
+#include "renderer.hpp"
+
+namespace qray::cli {
+
+alignas(64) uint8_t q32_pages[size_t{360} << 20], float_pages[size_t{216} << 20];
+
+namespace {
+
+// Has the processor what lanes_*.cpp are compiled for? What has all of these counts leading zeros, too.
+bool has_lanes()
+{
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi")
+        && __builtin_cpu_supports("bmi2");
+#else
+    return false;
+#endif
+}
+
+} // namespace
+
+const Renderer& fastest_renderer(Number number)
+{
+    const Renderer* const lanes = number == Number::q32 ? &q32_lanes_renderer
+        : number == Number::single_float                ? &float_lanes_renderer
+                                                        : nullptr;
+    return lanes != nullptr && has_lanes() ? *lanes : *renderers[static_cast<int>(number)];
+}
+
+} // namespace qray::cli
