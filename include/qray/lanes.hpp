@@ -7,7 +7,7 @@
 
 // 1 or 0, the same in a whole program; -D decides, or else the processor that is compiled for.
 #ifndef QRAY_LANES
-#if defined(__AVX2__) && defined(__FMA__)
+#if defined(__AVX2__) && defined(__FMA__) && __has_builtin(__builtin_shufflevector)
 #define QRAY_LANES 1
 #else
 #define QRAY_LANES 0
