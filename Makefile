@@ -63,10 +63,9 @@ render: build/qray
 	@echo "    pnmtopng $(PICTURE) > $(PICTURE:.ppm=.png)"
 
 # Tests: each tests/test_*.cpp is a program of its own, built with sanitizers; and those that ask more of a fast program
-# (a million rays instead of 20,000, larger pictures) once more as users would run it: in lanes, if this processor can.
-HERE    := $(if $(shell grep -m1 -w avx2 /proc/cpuinfo 2> /dev/null),$(LANES))
-UNIT    := $(filter-out test_lanes,$(patsubst tests/%.cpp,%,$(wildcard tests/test_*.cpp)))
-FAST    := test_hostile test_math test_meshes test_metamorphic test_vec test_lanes
+# (a million rays instead of 20,000, larger pictures) once more as users would build it.
+UNIT    := $(patsubst tests/%.cpp,%,$(wildcard tests/test_*.cpp))
+FAST    := test_hostile test_math test_meshes test_metamorphic
 SCRIPTS := $(wildcard tests/test_*.py tests/test_*.sh tests/*/test_*.py tests/*/test_*.sh)
 TESTS      = $(SCRIPTS) $(addprefix build/tests/,$(FAST)) $(addprefix build/sanitized/tests/,$(UNIT))
 TEST_NEEDS = build/qray build/sanitized/qray build/oracle $(VARIANTS:%=build/variants/%/qray)
@@ -78,7 +77,7 @@ build/tests/%: build/obj/tests/%.o build/obj/tests/scene_helpers.o $(LIBRARY)
 build/obj/tests/%.o: tests/%.cpp build/obj/gtest.hpp.gch
 	@echo "  compile $<"
 	@mkdir -p $(@D)
-	@$(CXX) $(FLAGS) $(HERE) -include build/obj/gtest.hpp -c $< -o $@
+	@$(CXX) $(FLAGS) -include build/obj/gtest.hpp -c $< -o $@
 
 SANITIZED := $(patsubst build/%,build/sanitized/%,$(LIBRARY))
 build/sanitized/qray: $(patsubst build/%,build/sanitized/%,$(PLAIN))
@@ -97,7 +96,7 @@ build/sanitized/obj/tests/%.o: tests/%.cpp build/sanitized/obj/gtest.hpp.gch
 	@mkdir -p $(@D)
 	@$(CXX) $(SANITIZE) $(if $(filter $*,$(LONG)),-O1,-O0 -include build/sanitized/obj/gtest.hpp) -c $< -o $@
 # GoogleTest's header, compiled once.
-build/obj/gtest.hpp.gch: USED = $(FLAGS) $(HERE)
+build/obj/gtest.hpp.gch: USED = $(FLAGS)
 build/sanitized/obj/gtest.hpp.gch: USED = $(SANITIZE) -O0
 %/gtest.hpp.gch: build/obj/flags
 	@mkdir -p $(@D)
@@ -146,4 +145,4 @@ test-programs: $(TEST_NEEDS) $(filter build/%,$(TESTS))
 
 .PHONY: all render test test-programs deps clean help FORCE
 .SECONDARY:
--include $(shell find build/obj build/sanitized/obj build/variants -name '*.d' 2> /dev/null)
+-include $(shell find build/obj build/lanes build/sanitized/obj build/variants -name '*.d' 2> /dev/null)

@@ -1,6 +1,6 @@
 // Vectors of float and of q32 in one register each, where a processor has such (lanes.hpp): the functions of
 // vec_parts.hpp for these number systems, and what else is done to all components at once. Ranges, units and results
-// are those of the functions by parts, of FixedSystem and of FloatSystem, bit for bit; tests/test_lanes.cpp compares.
+// are those of the functions by parts, of FixedSystem and of FloatSystem, bit for bit; tests/lanes compares them.
 #pragma once
 
 #include "vec_parts.hpp"

@@ -1,17 +1,15 @@
-// Vectors in registers, where this program is compiled for them: every function gives the bits that the number system's
-// own give for each component, which their tests hold to closed forms; at the ends of ranges, too.
+// Vectors in registers: every function gives the bits that the number system's own give for each component, which their
+// tests hold to closed forms; at the ends of ranges, too.
 #include <qray/camera.hpp>
 #include <qray/light.hpp>
 #include <qray/sampler.hpp>
 
-#include "number_helpers.hpp"
+#include "../number_helpers.hpp"
 
 namespace {
 
 using namespace qray;
 using namespace qray::test;
-
-#if QRAY_LANES
 
 using Length = q32::Length;
 using Unit = q32::Unit;
@@ -257,14 +255,5 @@ TEST(Lanes, UnitVectorOfNothingIsNone)
     EXPECT_FALSE(normalise<Float>(Vec<float>{}, f));
     EXPECT_TRUE(f == (Vec<float>{1, 2, 3}));
 }
-
-#else
-
-TEST(Lanes, AreNotOfThisProcessor)
-{
-    GTEST_SKIP();
-}
-
-#endif
 
 } // namespace
