@@ -145,4 +145,4 @@ test-programs: $(TEST_NEEDS) $(filter build/%,$(TESTS))
 
 .PHONY: all render test test-programs deps clean help FORCE
 .SECONDARY:
--include $(shell find build/obj build/lanes build/sanitized/obj build/variants -name '*.d' 2> /dev/null)
+-include $(shell find build/obj build/sanitized/obj build/variants -name '*.d' 2> /dev/null)
