@@ -31,6 +31,14 @@
 #define QRAY_SOFT_CLZ 0
 #endif
 
+// Square roots of binary32 in an instruction.
+#if defined(__SSE2__) || defined(__aarch64__) || (defined(__ARM_FP) && (__ARM_FP & 4)) \
+    || (defined(__riscv_flen) && __riscv_flen >= 32)
+#define QRAY_FLOAT_SQRT 1
+#else
+#define QRAY_FLOAT_SQRT 0
+#endif
+
 // Square roots of binary64 in an instruction, beside 64-bit integers.
 #if defined(__SSE2__) || defined(__aarch64__)
 #define QRAY_DOUBLE_SQRT 1
@@ -451,11 +459,11 @@ constexpr Bits sqrt_bits(Bits x)
 } // namespace detail
 
 // Square roots, correctly rounded (nearest), without errno: the processor's where it has one, else in
-// integers. Infinity gives infinity; a negative x, either zero and NaN give +0.
-constexpr float sqrt_float(float x)
+// integers. Infinity gives infinity. Of x >= 0, but not -0.
+QRAY_INLINE constexpr float root_float(float x)
 {
     if (!__builtin_is_constant_evaluated()) {
-        [[maybe_unused]] float root = x > 0.0f ? x : 0.0f;
+        [[maybe_unused]] float root = x;
 #if defined(__AVX__)
         __asm__("vsqrtss %0, %0, %0" : "+x"(root));
         return root;
@@ -475,6 +483,8 @@ constexpr float sqrt_float(float x)
     }
     return __builtin_bit_cast(float, detail::sqrt_bits<uint32_t, 23>(__builtin_bit_cast(uint32_t, x)));
 }
+// The same; a negative x, either zero and NaN give +0, which integers find without being asked.
+constexpr float sqrt_float(float x) { return root_float(!QRAY_FLOAT_SQRT || x > 0.0f ? x : 0.0f); }
 
 constexpr double sqrt_double(double x)
 {

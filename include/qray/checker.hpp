@@ -17,8 +17,8 @@ struct Checker {
             if (lane_cell_sum(lattice.x, lattice.y, lattice.z, q, sum))
                 return sum & 1 ? colour : m;
         }
-        const uint32_t cells = lattice.x.cell(q.x).index + lattice.y.cell(q.y).index + lattice.z.cell(q.z).index;
-        return cells & 1 ? colour : m;
+        const Vec<typename N::Unit>& of_cell = lattice.parity(q) & 1 ? colour : m;
+        return {of_cell.x, of_cell.y, of_cell.z};
     }
 };
 

@@ -29,7 +29,7 @@ QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typena
     if (ray.from == s.tag)
         return false;
     const Point<N> v = s.centre - ray.origin;
-    if (!intersect_plane<N>(dot<N>(v, s.normal), dot<N>(ray.direction, s.normal), limit, t))
+    if (!intersect_plane<N>(dot_normal<N>(v, s.normal), dot_normal<N>(ray.direction, s.normal), limit, t))
         return false;
     const Point<N> a = along<N>(t, ray.direction);
     const Point<N> w = saturating_sub<N>(a, v);

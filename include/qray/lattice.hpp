@@ -121,8 +121,7 @@ struct LatticeAxis<N> {
     {
         if constexpr (sizeof(F) == 4) {
             // Conversions to 64 bits would link arithmetic in double precision on small cores.
-            constexpr F limit = F(uint32_t{1} << 31);
-            if (!(N::absolute(p) < limit))
+            if (!(N::absolute(p) < whole_limit))
                 return {whole_index(__builtin_bit_cast(uint32_t, p)), F(0)};
             return split<int32_t>(p);
         } else {
@@ -133,13 +132,22 @@ struct LatticeAxis<N> {
         }
     }
 
+    static constexpr F whole_limit = F(uint32_t{1} << 31);
+    // floor(p) of |p| < whole_limit.
+    static constexpr uint32_t below(F p)
+    {
+        const int32_t whole = static_cast<int32_t>(p);
+        return static_cast<uint32_t>(whole + (__builtin_bit_cast(int32_t, p - static_cast<F>(whole)) >> 31));
+    }
+
 private:
     template <class Whole>
     static constexpr Cell<N> split(F p)
     {
-        Whole whole = static_cast<Whole>(p);
-        whole -= static_cast<F>(whole) > p;
-        return {static_cast<uint32_t>(whole), p - static_cast<F>(whole)};
+        const Whole whole = static_cast<Whole>(p);
+        const F rest = p - static_cast<F>(whole); // exact
+        const bool below = rest < F(0);
+        return {static_cast<uint32_t>(whole - below), below ? rest + F(1) : rest};
     }
     // Of binary32 beyond 2^31, modulo 2^32.
     static constexpr uint32_t whole_index(uint32_t bits)
@@ -192,9 +200,10 @@ struct LatticeStep<N> {
     F inside;
     uint32_t index;
 
+    constexpr F at(F q) const { return row * q + inside; }
     constexpr Cell<N> cell(F q) const
     {
-        const Cell<N> c = LatticeAxis<N>::split(row * q + inside);
+        const Cell<N> c = LatticeAxis<N>::split(at(q));
         return {c.index + index, c.inside};
     }
 };
@@ -203,6 +212,18 @@ struct LatticeStep<N> {
 template <class N>
 struct Lattice {
     LatticeStep<N> x, y, z;
+
+    // Odd where the sum of the three cells is.
+    QRAY_INLINE constexpr uint32_t parity(const Point<N>& q) const
+    {
+        if constexpr (!N::is_fixed && sizeof(typename N::Length) == 4) { // one question for all three, mostly
+            const auto px = x.at(q.x), py = y.at(q.y), pz = z.at(q.z);
+            if (N::absolute(px) + N::absolute(py) + N::absolute(pz) < LatticeAxis<N>::whole_limit)
+                return LatticeAxis<N>::below(px) + LatticeAxis<N>::below(py) + LatticeAxis<N>::below(pz) + x.index
+                    + y.index + z.index;
+        }
+        return x.cell(q.x).index + y.cell(q.y).index + z.cell(q.z).index;
+    }
 };
 
 // sqrt(a^2 + b^2) of two bounded coordinates, plus epsilon: cell and place inside.

@@ -374,6 +374,14 @@ struct FloatSystem {
             return sqrt_double(a);
     }
     QRAY_INLINE static constexpr F sqrt_unit(F a) { return sqrt(a); }
+    // Of a >= 0, but not -0.
+    QRAY_INLINE static constexpr F root(F a)
+    {
+        if constexpr (sizeof(F) == 4)
+            return root_float(a);
+        else
+            return sqrt_double(a);
+    }
     QRAY_INLINE static constexpr bool quotient(F num, F den, int, F& t)
     {
         if (den == 0)
@@ -429,6 +437,15 @@ struct FloatSystem {
             return __builtin_fabs(v);
     }
 
+    // The sign bit, also of 0.
+    QRAY_INLINE static constexpr bool negative(F v)
+    {
+        if constexpr (sizeof(F) == 4)
+            return __builtin_bit_cast(int32_t, v) < 0;
+        else
+            return __builtin_bit_cast(int64_t, v) < 0;
+    }
+
     // How far a new ray starts from the surface it leaves, at a point that lies on it to its own rounding.
     QRAY_INLINE static constexpr F leave(F x, F y, F z)
     {
@@ -442,11 +459,16 @@ struct FloatSystem {
 
     QRAY_INLINE static constexpr F power_whole(F x, Shine e)
     {
-        F r = 1;
-        for (uint32_t n = e.whole; n != 0; n >>= 1) {
+        uint32_t n = e.whole;
+        if (n == 0)
+            return 1;
+        for (; (n & 1) == 0; n >>= 1)
+            x *= x;
+        F r = x;
+        while ((n >>= 1) != 0) {
+            x *= x;
             if (n & 1)
                 r *= x;
-            x *= x;
         }
         return r;
     }

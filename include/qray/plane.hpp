@@ -13,11 +13,13 @@ QRAY_INLINE constexpr bool intersect_plane(typename N::Moment num, typename N::C
 {
     constexpr typename N::Moment zero_moment{};
     constexpr typename N::Cosine zero_cosine{};
-    if (den > zero_cosine ? !(num > zero_moment) : !(num < zero_moment))
-        return false;
     if constexpr (N::is_fixed) {
+        if (den > zero_cosine ? !(num > zero_moment) : !(num < zero_moment))
+            return false;
         return N::quotient(num, den, 0, t) && t > N::length_zero && t <= limit;
     } else {
+        if (N::negative(num) != N::negative(den))
+            return false;
         t = num / den; // infinite is beyond the limit
         return t > N::length_zero && t <= limit;
     }

@@ -134,7 +134,7 @@ struct Surface {
 
 // With the point where rays start that leave to the viewer's side, where a step takes long and registers are many.
 template <class N>
-inline constexpr bool keeps_step = in_lanes<N> && !N::is_fixed;
+inline constexpr bool keeps_step = !N::is_fixed;
 template <class N>
     requires keeps_step<N>
 struct Surface<N> {

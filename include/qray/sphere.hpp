@@ -55,7 +55,10 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
         half = N::length_zero;
         return leaving == Leaves::inward; // however short, that chord has another end
     }
-    half = N::sqrt(r2 - p2);
+    if constexpr (N::is_fixed)
+        half = N::sqrt(r2 - p2);
+    else
+        half = N::root(r2 - p2);
     if constexpr (N::is_fixed && !IsNarrow<N>)
         foot = N::fine_rest(moment, middle, s.fine);
     return true;

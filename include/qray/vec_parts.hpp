@@ -57,6 +57,35 @@ QRAY_INLINE constexpr Vec<typename N::Colour> scaled(typename N::Unit k, const V
     return {N::colour(c.x * k), N::colour(c.y * k), N::colour(c.z * k)};
 }
 
+// dot() and along() for the normal of a flat surface. In a constant table it often lies along an axis, and products with
+// 0 change nothing but the sign of a floating-point 0.
+template <class F>
+QRAY_INLINE constexpr bool surely_zero(F a)
+{
+    return __builtin_constant_p(a == 0) && a == 0;
+}
+template <class N, class A>
+QRAY_INLINE constexpr auto dot_normal(const Vec<A>& a, const Vec<typename N::Unit>& n)
+{
+    if constexpr (!N::is_fixed && InParts<N>) {
+        if (surely_zero(n.x) && surely_zero(n.z))
+            return a.y * n.y;
+        if (surely_zero(n.x) && surely_zero(n.y))
+            return a.z * n.z;
+        if (surely_zero(n.y) && surely_zero(n.z))
+            return a.x * n.x;
+    }
+    return dot<N>(a, n);
+}
+template <class N>
+QRAY_INLINE constexpr Vec<typename N::Length> along_normal(typename N::Length t, const Vec<typename N::Unit>& n)
+{
+    if constexpr (!N::is_fixed && InParts<N>)
+        return {surely_zero(n.x) ? 0 : t * n.x, surely_zero(n.y) ? 0 : t * n.y, surely_zero(n.z) ? 0 : t * n.z};
+    else
+        return along<N>(t, n);
+}
+
 // The point a little off q on one side of a surface with normal g: where a ray starts that leaves it.
 template <InParts N>
 QRAY_INLINE constexpr Vec<typename N::Length> step_off(const Vec<typename N::Length>& q,
