@@ -26,7 +26,7 @@ FLOORS = [
     "vec vec_parts vec_lanes ray narrow plane corners reflection",
     "sphere disc cone polygon patch lattice value_noise checker stripes gradient rings noise marble wood brick"
     " material highlight mirror transmit light sun camera eye_surface",
-    "effects scene tree",
+    "effects sight scene tree windows",
     "nearest shadow see_through trace",
     "sampler grid adaptive sink render",
     "qray",

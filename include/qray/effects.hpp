@@ -23,8 +23,8 @@ struct Effects {
     bool eye_surface = false; // the eye lies on a surface
     // sampling: several samples a pixel, on a grid or adaptively
     bool grid = false, adaptive = false;
-    // a tree over the shapes
-    bool tree = false;
+    bool windows = false; // the pixels in which a shape may be met are known
+    bool tree = false;    // over the shapes
     // entries of the tracer's stack: the greatest max depth. Only transmit has a stack.
     uint8_t depth = 5;
 
@@ -51,10 +51,11 @@ constexpr bool Effects::holds(const Effects& o) const
         && covers(sun, o.sun) && covers(shadow, o.shadow) && covers(see_through, o.see_through)
         && covers(highlight, o.highlight) && covers(fractional_shine, o.fractional_shine)
         && covers(mirror, o.mirror) && covers(transmit, o.transmit) && covers(eye_surface, o.eye_surface)
-        && covers(grid, o.grid) && covers(adaptive, o.adaptive) && covers(tree, o.tree) && depth >= o.depth;
+        && covers(grid, o.grid) && covers(adaptive, o.adaptive)
+        && covers(windows, o.windows) && covers(tree, o.tree) && depth >= o.depth;
 }
 
-// The set of everything; shadows are on.
+// The set of everything but windows, which only a compiled scene has; shadows are on.
 constexpr Effects everything(uint8_t depth)
 {
     Effects e;

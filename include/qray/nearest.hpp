@@ -83,12 +83,67 @@ QRAY_INLINE constexpr bool with_shape(const Scene<N, E>& scene, Kind kind, uint3
     return false;
 }
 
-// Calls f(shape, kind, index) for every shape that the ray may meet before limit(), until it returns true.
+// The set of those shapes of a set that the ray does not surely miss.
+template <class N, Effects E>
+QRAY_INLINE constexpr ShapeSet near_shapes(const Scene<N, E>& scene, const Ray<N>& ray, ShapeSet of)
+{
+    if ((of & unasked) == 0)
+        return of;
+    const NarrowRay<N> narrow(ray);
+    ShapeSet set = 0, bit = set_of(0);
+    for_each_shape(scene, [&](const auto& shape, Kind kind, uint32_t) __attribute__((always_inline)) {
+        if (kind != Kind::disc) {
+            if ((of & bit) != 0 && !surely_missed(shape, narrow))
+                set |= bit;
+            bit >>= 1;
+        }
+        return false;
+    });
+    return set | (of & (bit | (bit - 1))); // and the discs
+}
+
+// Calls f(shape, kind, index) for the shapes of a set, until it returns true.
+template <class N, Effects E, class F>
+QRAY_INLINE constexpr void for_each_in_sight(const Scene<N, E>& scene, ShapeSet set, F f)
+{
+    const auto all_of = [&set, f](const auto& table, Kind kind) __attribute__((always_inline)) {
+        ShapeSet part = set & ~(0xffffffff >> table.count);
+        set <<= table.count;
+        if (__builtin_constant_p(table.count == 1) && table.count == 1)
+            return part != 0 && f(table.data[0], kind, 0);
+        while (part != 0) {
+            const uint32_t i = static_cast<uint32_t>(count_leading_zeros(part));
+            if (f(table[i], kind, i))
+                return true;
+            part &= ~set_of(i);
+        }
+        return false;
+    };
+    if constexpr (E.sphere)
+        if (all_of(scene.spheres, Kind::sphere))
+            return;
+    if constexpr (E.cone)
+        if (all_of(scene.cones, Kind::cone))
+            return;
+    if constexpr (E.polygon)
+        if (all_of(scene.polygons, Kind::polygon))
+            return;
+    if constexpr (E.patch)
+        if (all_of(scene.patches, Kind::patch))
+            return;
+    if constexpr (E.disc)
+        if (all_of(scene.discs, Kind::disc))
+            return;
+}
+
+// Calls f(shape, kind, index) for every shape of a set that the ray may meet before limit(), until it returns true.
 template <class N, Effects E, class Limit, class F>
 QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_unused]] const Ray<N>& ray,
-                                              [[maybe_unused]] Limit limit, F f)
+                                              [[maybe_unused]] ShapeSet set, [[maybe_unused]] Limit limit, F f)
 {
-    if constexpr (E.tree) {
+    if constexpr (E.windows) {
+        for_each_in_sight(scene, near_shapes(scene, ray, set), f);
+    } else if constexpr (E.tree) {
         walk(scene.tree.value, ray, limit, [&](auto id) QRAY_INLINE_LAMBDA {
             return with_shape(scene, id.kind(), id.index(), f);
         });
@@ -105,28 +160,52 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
     }
 }
 
-// The nearest hit; of several at the same t, that of the first surface in the file. False where there is none.
-template <class N, Effects E>
-QRAY_INLINE constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit)
+// Keeps the hit on a shape, if there is one before the last.
+template <class N, Effects E, class S>
+QRAY_INLINE constexpr void keep_nearest(const Scene<N, E>& scene, const Ray<N>& ray, const S& shape, Kind kind,
+                                        uint32_t index, Hit<N>& hit)
 {
-    if constexpr (!N::is_fixed || (IsNarrow<N> && has_wide_multiply))
+    typename N::Length t{};
+    Local<N> local{};
+    if (intersect_in(scene, shape, ray, hit.t, t, local) && hit.after(t, shape.tag)) {
+        hit.t = t;
+        hit.tag = shape.tag;
+        hit.kind = kind;
+        hit.index = index;
+        if constexpr (IsCurved<S>)
+            hit.local = local;
+    }
+}
+
+// The nearest hit, of a set of shapes; of several at the same t, that of the first surface in the file. False where
+// there is none.
+template <class N, Effects E>
+QRAY_INLINE constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit,
+                                 [[maybe_unused]] ShapeSet set = every_shape)
+{
+    if constexpr ((!N::is_fixed && !E.windows) || (IsNarrow<N> && has_wide_multiply))
         hit = {}; // or the compiler warns that it may be used unset
+    if constexpr (E.windows) {
+        hit.kind = Kind::sphere; // likewise
+        hit.index = 0;
+        hit.local = {};
+    }
     hit.t = N::length_max;
     hit.tag = {Tag::none};
     const auto take = [&](const auto& shape, Kind kind, uint32_t index) QRAY_INLINE_LAMBDA {
-        typename N::Length t{};
-        Local<N> local{};
-        if (intersect_in(scene, shape, ray, hit.t, t, local) && hit.after(t, shape.tag)) {
-            hit.t = t;
-            hit.tag = shape.tag;
-            hit.kind = kind;
-            hit.index = index;
-            if constexpr (IsCurved<decltype(shape)>)
-                hit.local = local;
-        }
+        keep_nearest(scene, ray, shape, kind, index, hit);
         return false;
     };
-    for_each_candidate(scene, ray, [&hit] { return hit.t; }, take);
+    // Windows' shapes, too, are asked in a place or two.
+    const auto take_inlined = [&](const auto& shape, Kind kind, uint32_t index) __attribute__((always_inline)) {
+        keep_nearest(scene, ray, shape, kind, index, hit);
+        return false;
+    };
+    const auto limit = [&hit] { return hit.t; };
+    if constexpr (E.windows)
+        for_each_candidate(scene, ray, set, limit, take_inlined);
+    else
+        for_each_candidate(scene, ray, set, limit, take);
     return !(hit.tag == Tag{Tag::none});
 }
 

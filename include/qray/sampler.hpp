@@ -37,13 +37,16 @@ struct Sample<N> {
 
     static constexpr Level clamped(Level c, int)
     {
-        const Level v = c > 0 ? c : Level(0);
-        return v < one ? v : one;
+        if constexpr (sizeof(Level) == 4) { // of what is not negative, in the order of its bits
+            const int32_t bits = __builtin_bit_cast(int32_t, c), most = __builtin_bit_cast(int32_t, one);
+            return __builtin_bit_cast(Level, bits < most ? bits : most);
+        }
+        return c < one ? c : one;
     }
     // As above: the 255-fold of a mean of round decimals may end 32 epsilon below a half.
     static constexpr uint8_t byte(Level v)
     {
-        return static_cast<uint8_t>(static_cast<int32_t>(v * 255 + (Level(0.5) + 32 * N::epsilon)));
+        return static_cast<uint8_t>(static_cast<uint32_t>(v * 255 + (Level(0.5) + 32 * N::epsilon)));
     }
 };
 
@@ -57,9 +60,16 @@ QRAY_INLINE constexpr Ray<N> eye_ray(const Scene<N, E>& scene, const Pencil<N>& 
 }
 
 template <class N, Effects E, class Count>
-constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, Count& count)
+constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, Sight<E.windows> sight, Count& count)
 {
-    const Rgb<N> c = trace(scene, eye_ray(scene, at), count);
+    Rgb<N> c = scene.background;
+    bool empty = false;
+    if constexpr (E.windows)
+        empty = sight.is_empty();
+    if (empty)
+        count(RayKind::camera);
+    else
+        c = trace(scene, eye_ray(scene, at), count, sight);
     return {Sample<N>::clamped(c.x, scene.exposure), Sample<N>::clamped(c.y, scene.exposure),
             Sample<N>::clamped(c.z, scene.exposure)};
 }

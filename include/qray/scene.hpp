@@ -19,11 +19,13 @@
 #include "patch.hpp"
 #include "polygon.hpp"
 #include "rings.hpp"
+#include "sight.hpp"
 #include "sphere.hpp"
 #include "stripes.hpp"
 #include "sun.hpp"
 #include "transmit.hpp"
 #include "tree.hpp"
+#include "windows.hpp"
 #include "wood.hpp"
 
 namespace qray {
@@ -33,6 +35,11 @@ struct Table {
     const T* data;
     uint32_t count;
     constexpr const T& operator[](uint32_t i) const { return data[i]; }
+    // The same, for a table that often has but one: if it is known to, that is known.
+    constexpr const T& at(uint32_t i) const
+    {
+        return data[__builtin_constant_p(count == 1) && count == 1 ? 0 : i];
+    }
 };
 template <class T>
 struct Table<T, false> {};
@@ -56,6 +63,7 @@ struct Scene {
     [[no_unique_address]] Maybe<bool, E.shadow> shadows{};
     [[no_unique_address]] Maybe<uint8_t, E.adaptive> levels{};
     [[no_unique_address]] Maybe<typename N::Unit, E.adaptive> threshold{};
+    [[no_unique_address]] Maybe<Windows, E.windows> windows{};
 
     [[no_unique_address]] Table<Sphere<N>, E.sphere> spheres{};
     [[no_unique_address]] Table<Disc<N>, E.disc> discs{};

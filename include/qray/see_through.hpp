@@ -28,11 +28,12 @@ struct Veils {
     }
 };
 
-// The share of light that comes through all surfaces strictly between the ray's origin and `distance`:
+// The share of light that comes through all surfaces of a set strictly between the ray's origin and `distance`:
 // multiplied in the order of their places, so that rounding does not depend on the order in which they are
 // found.
 template <class N, Effects E>
-constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance)
+QRAY_INLINE constexpr typename N::Unit light_through_set(const Scene<N, E>& scene, const Ray<N>& ray,
+                                                         typename N::Length distance, ShapeSet set)
 {
     auto through = N::one;
     const auto amount = [&scene](Tag tag) { return scene.transmits[tag.material()].amount; };
@@ -41,7 +42,7 @@ constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>&
     for (;;) {
         Veils found;
         bool blocked = false;
-        for_each_candidate(scene, ray, [distance] { return distance; }, [&](const auto& shape, Kind, uint32_t) {
+        for_each_candidate(scene, ray, set, [distance] { return distance; }, [&](const auto& shape, Kind, uint32_t) {
             if (!first && shape.tag.place() <= last)
                 return false;
             const int times = crossings_in(scene, shape, ray, distance);
@@ -61,6 +62,18 @@ constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>&
         first = false;
         last = found.veils[found.count - 1].tag.place();
     }
+}
+
+template <class N, Effects E>
+constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance)
+{
+    return light_through_set(scene, ray, distance, every_shape);
+}
+template <class N, Effects E>
+constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance,
+                                         ShapeSet set)
+{
+    return light_through_set(scene, ray, distance, set);
 }
 
 } // namespace qray

@@ -38,7 +38,7 @@ QRAY_INLINE constexpr Point<N> on_plane([[maybe_unused]] const Point<N>& c, [[ma
                                         const Point<N>& q)
 {
     if constexpr (!N::is_fixed)
-        return q - along<N>(dot<N>(q - c, normal), normal);
+        return q - along_normal<N>(dot_normal<N>(q - c, normal), normal);
     else if constexpr (IsNarrow<N>)
         return q - along<N>(N::length(dot<N>(q - c, normal)), normal);
     else
@@ -78,7 +78,7 @@ QRAY_INLINE constexpr void geometry_at(const Scene<N, E>& scene, const Ray<N>& r
             return;
         }
     if constexpr (E.disc) {
-        const Disc<N>& disc = scene.discs[hit.index];
+        const Disc<N>& disc = scene.discs.at(hit.index);
         g = disc.normal;
         q = on_plane<N>(disc.centre, g, ray.origin + along<N>(hit.t, ray.direction));
     }
@@ -117,7 +117,7 @@ QRAY_INLINE constexpr Ray<N> leaving(const Surface<N>& s, [[maybe_unused]] Kind 
         }
     if constexpr (keeps_step<N>)
         if (above)
-            return {s.above, d, tag, !s.turned};
+            return {{s.above.x, s.above.y, s.above.z}, d, tag, !s.turned};
     return {step_off<N>(s.point, s.normal, above), d, tag, above != s.turned};
 }
 
@@ -152,10 +152,10 @@ QRAY_INLINE constexpr Vec<typename N::Unit> colour_at(const Scene<N, E>& scene, 
 {
     const Vec<typename N::Unit>& m = scene.mattes[material].colour;
     if constexpr (E.texture()) {
-        const TextureRef ref = scene.textures[material];
+        const TextureRef& ref = scene.textures[material];
         if constexpr (E.checker)
             if (ref.kind == TextureKind::checker)
-                return scene.checkers[ref.index](m, q);
+                return scene.checkers.at(ref.index)(m, q);
         if constexpr (E.stripes)
             if (ref.kind == TextureKind::stripes)
                 return scene.stripes[ref.index](m, q);
@@ -201,18 +201,19 @@ QRAY_INLINE constexpr void add(Rgb<N>& sum, const Rgb<N>& light, typename N::Uni
 }
 
 // One hit: all that shading asks about it.
-template <class N>
+template <class N, bool Windows = false>
 struct Seen {
     const Surface<N>& surface;
     Kind kind;
     Tag tag;
     uint32_t material;
     const Direction<N>& direction; // of the ray that sees it
+    [[no_unique_address]] Maybe<ShapeSet, Windows> blockers{}; // what may be before a light
 };
 
 // Adds the light that comes along l, unless it is blocked.
 template <class N, Effects E, class Count>
-QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen, const Direction<N>& l,
+QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N, E.windows>& seen, const Direction<N>& l,
                                   typename N::Length distance, const Rgb<N>& colour, Gathered<N, E>& sum, Count& count)
 {
     const Surface<N>& s = seen.surface;
@@ -238,13 +239,23 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
             count(RayKind::shadow);
             const Ray<N> to_light = leaving<N, E>(s, seen.kind, seen.tag, l, true);
             if constexpr (E.see_through) {
-                const auto through = light_through(scene, to_light, distance);
+                auto through = N::one;
+                if constexpr (E.windows)
+                    through = light_through(scene, to_light, distance, seen.blockers.value);
+                else
+                    through = light_through(scene, to_light, distance);
                 if (through == N::zero)
                     return;
                 diffuse = N::unit(diffuse * through);
                 highlight = N::unit(highlight * through);
-            } else if (light_blocked(scene, to_light, distance)) {
-                return;
+            } else {
+                bool blocked = false;
+                if constexpr (E.windows)
+                    blocked = light_blocked(scene, to_light, distance, seen.blockers.value);
+                else
+                    blocked = light_blocked(scene, to_light, distance);
+                if (blocked)
+                    return;
             }
         }
     }
@@ -254,7 +265,7 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
 }
 
 template <class N, Effects E, class Count>
-QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N>& seen, Count& count)
+QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N, E.windows>& seen, Count& count)
 {
     Gathered<N, E> sum{scene.mattes[seen.material].ambient, {}};
     if constexpr (E.light)
@@ -296,7 +307,7 @@ struct Stack {
 template <class N, Effects E>
 QRAY_INLINE constexpr void accumulate(Rgb<N>& sum, const Rgb<N>& light, typename N::Unit weight)
 {
-    if (!E.spawns() || weight == N::one)
+    if (!E.spawns() || (N::is_fixed && weight == N::one))
         saturating_add<N>(sum, light);
     else
         saturating_add<N>(sum, light, weight);
@@ -304,7 +315,7 @@ QRAY_INLINE constexpr void accumulate(Rgb<N>& sum, const Rgb<N>& light, typename
 
 // The light that comes back along an eye ray, not yet clamped to [0, 1], divided by 2^exposure.
 template <class N, Effects E, class Count>
-constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count)
+constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count, [[maybe_unused]] Sight<E.windows> sight = {})
 {
     Rgb<N> sum{N::black, N::black, N::black};
     [[maybe_unused]] Maybe<Stack<N, E>, E.transmit> stack;
@@ -315,13 +326,26 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count)
     count(RayKind::camera);
     for (;;) {
         Hit<N> hit;
-        if (!nearest(scene, ray, hit)) {
+        bool found = false;
+        if constexpr (E.windows)
+            found = nearest(scene, ray, hit, sight.ahead());
+        else
+            found = nearest(scene, ray, hit);
+        if (!found) {
             accumulate<N, E>(sum, scene.background, weight);
         } else {
             const Surface<N> s = surface_at(scene, ray, hit);
             const uint32_t material = hit.tag.material();
-            accumulate<N, E>(
-                sum, local_light(scene, Seen<N>{s, hit.kind, hit.tag, material, ray.direction}, count), weight);
+            Seen<N, E.windows> seen{s, hit.kind, hit.tag, material, ray.direction, {}};
+            if constexpr (E.windows) {
+                const bool on_floor = hit.tag == scene.windows.value.floor;
+                seen.blockers.value = on_floor ? sight.before_light() : every_shape;
+                sight = on_floor ? sight.in_floor() : Sight<E.windows>{};
+                if constexpr (E.sphere)
+                    if ((E.shapes() == 1 || hit.kind == Kind::sphere) && !s.turned)
+                        seen.blockers.value = scene.windows.value.blockers[hit.index];
+            }
+            accumulate<N, E>(sum, local_light(scene, seen, count), weight);
             if constexpr (E.spawns()) {
                 if (depth < scene.max_depth.value) {
                     auto reflect = N::zero;
@@ -349,10 +373,13 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count)
                         }
                     }
                     const auto w = N::unit(weight * reflect);
-                    if (w >= scene.cutoff.value && w > N::zero) {
+                    if (w >= scene.cutoff.value && (scene.cutoff.value > N::zero || w > N::zero)) {
                         count(RayKind::mirrored);
                         ray = going_on<N, E>(s, hit.kind, hit.tag,
                                              mirrored<N>(ray.direction, s.normal, s.n_d), true, -s.n_d);
+                        if constexpr (E.windows && E.sphere)
+                            if ((E.shapes() == 1 || hit.kind == Kind::sphere) && !s.turned)
+                                sight = {scene.windows.value.octants[hit.index][octant_of<N>(ray.direction)]};
                         weight = w;
                         depth++;
                         continue;
@@ -367,6 +394,7 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count)
             ray = next.ray;
             weight = next.weight;
             depth = next.depth;
+            sight = {};
         } else {
             return sum;
         }

@@ -5,6 +5,7 @@
 #include <qray/render.hpp>
 
 #include "../scene/builder.hpp"
+#include "../scene/window_builder.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -155,13 +156,29 @@ void count_ray(RayKind kind)
     }
 }
 
+// Is the shape in the set?
+template <Effects E>
+bool has(const Scene<Counting, E>& scene, ShapeSet set, Kind kind, uint32_t index)
+{
+    const uint32_t before[] = {0, scene.spheres.count, scene.cones.count, scene.polygons.count, scene.patches.count};
+    constexpr Kind kinds[] = {Kind::sphere, Kind::cone, Kind::polygon, Kind::patch, Kind::disc};
+    for (int i = 0; i < 5; i++) {
+        index += before[i];
+        if (kinds[i] == kind)
+            break;
+    }
+    return set == every_shape || (set & set_of(index)) != 0;
+}
+
 // These stand in for the tracer's functions of the same names.
 template <Effects E>
-bool nearest(const Scene<Counting, E>& scene, const Shot& ray, Hit<Counting>& hit)
+bool nearest(const Scene<Counting, E>& scene, const Shot& ray, Hit<Counting>& hit, ShapeSet set = every_shape)
 {
     add(Operation::ray);
     double limit = Counting::length_max;
-    for_each_shape(scene, [&](const auto& shape, Kind, uint32_t) {
+    for_each_shape(scene, [&](const auto& shape, Kind kind, uint32_t index) {
+        if (!has(scene, set, kind, index))
+            return false;
         count_test(scene, shape, ray, limit);
         add(Operation::nearest_test);
         double t = 0;
@@ -177,11 +194,13 @@ bool nearest(const Scene<Counting, E>& scene, const Shot& ray, Hit<Counting>& hi
 }
 
 template <Effects E>
-double light_through(const Scene<Counting, E>& scene, const Shot& ray, double distance)
+double light_through(const Scene<Counting, E>& scene, const Shot& ray, double distance, ShapeSet set = every_shape)
 {
     add(Operation::veiled_ray, effects.see_through);
     const double through = qray::light_through<Counting, E>(scene, ray, distance);
-    for_each_shape(scene, [&](const auto& shape, Kind, uint32_t) {
+    for_each_shape(scene, [&](const auto& shape, Kind kind, uint32_t index) {
+        if (!has(scene, set, kind, index))
+            return false;
         count_test(scene, shape, ray, distance);
         add(Operation::veiled_test, effects.see_through);
         if (crossings_in(scene, shape, ray, distance) == 0)
@@ -193,7 +212,7 @@ double light_through(const Scene<Counting, E>& scene, const Shot& ray, double di
 }
 
 template <Effects E, class Count>
-Rgb<Counting> local_light(const Scene<Counting, E>& scene, const Seen<Counting>& at, Count& count)
+Rgb<Counting> local_light(const Scene<Counting, E>& scene, const Seen<Counting, E.windows>& at, Count& count)
 {
     add(Operation::hit);
     add(seen[static_cast<int>(at.kind)]);
@@ -227,32 +246,48 @@ Rgb<Counting> local_light(const Scene<Counting, E>& scene, const Seen<Counting>&
     return qray::local_light<Counting, E>(scene, at, count);
 }
 
-constexpr Effects without_tree()
+constexpr Effects without_tree(bool windows)
 {
     Effects e = everything(scene::Settings::max_depth);
     e.tree = false;
+    e.windows = windows;
     return e;
 }
 
 scene::Storage<Counting> storage;
 
-} // namespace
-
-OperationCounts count_operations(const scene::Description& description, const scene::Settings& settings,
-                                 uint32_t stride)
+// Returns how many rows.
+template <Effects E>
+double count_rows(const Scene<Counting, E>& view, uint32_t stride)
 {
-    counts = {};
-    scene::Error error;
-    if (!scene::Builder<Counting>(description, settings, storage).build(error))
-        return counts;
-    effects = storage.effects;
-    const auto view = storage.template view<without_tree()>();
     double rows = 0;
     for (uint32_t j = stride / 2; j < storage.camera.height; j += stride, rows++)
         for (uint32_t i = 0; i < storage.camera.width; i++) {
             add(Operation::pixel);
             render_pixel(view, i, j, count_ray);
         }
+    return rows;
+}
+
+} // namespace
+
+OperationCounts count_operations(const scene::Description& description, const scene::Settings& settings,
+                                 uint32_t stride, bool windows)
+{
+    counts = {};
+    scene::Error error;
+    if (!scene::Builder<Counting>(description, settings, storage).build(error))
+        return counts;
+    effects = storage.effects;
+    double rows = 0;
+    scene::WindowBuilder<Counting> builder;
+    if (windows && builder.build(storage)) {
+        auto view = storage.template view<without_tree(true)>();
+        view.windows.value = builder.windows();
+        rows = count_rows(view, stride);
+    } else {
+        rows = count_rows(storage.template view<without_tree(false)>(), stride);
+    }
     for (double& n : counts.of)
         n *= storage.camera.height / rows;
     return counts;

@@ -55,8 +55,9 @@ struct OperationCounts {
     double& operator[](Operation o) { return of[static_cast<int>(o)]; }
 };
 
-// Of every stride-th row of the picture, times what is left out. Not to be called by two threads at once.
+// Of every stride-th row of the picture, times what is left out; with windows, where compiled scenes of this number
+// system have them. Not to be called by two threads at once.
 OperationCounts count_operations(const scene::Description& description, const scene::Settings& settings,
-                                 uint32_t stride);
+                                 uint32_t stride, bool windows);
 
 } // namespace qray::cli

@@ -172,8 +172,9 @@ size_t predict(const Options& options, const Rows& rows)
             s.threshold = sampling.threshold;
             s.depth = depth;
             const uint32_t fewer = std::max(rows.height / wanted_rows, 1u);
-            const OperationCounts counts =
-                count_operations(description(), s, std::clamp(rows.stride * s.grid, 1u, fewer));
+            const uint32_t stride = std::clamp(rows.stride * s.grid, 1u, fewer);
+            const OperationCounts fixed = count_operations(description(), s, stride, false);
+            const OperationCounts floating = count_operations(description(), s, stride, true);
             for (size_t n = 0; n < sizeof renderers / sizeof *renderers; n++) {
                 const Calibration* costs = find_costs(options.board, number_names[n]);
                 Built built{};
@@ -185,7 +186,7 @@ size_t predict(const Options& options, const Rows& rows)
                 else if (!spawns[n])
                     continue;
                 Candidate& c = candidates[found];
-                c = {costs, static_cast<int>(n), s, instructions(*costs, counts, built.effects, s), 0,
+                c = {costs, static_cast<int>(n), s, instructions(*costs, n >= static_cast<size_t>(Number::single_float) ? floating : fixed, built.effects, s), 0,
                      flash(*costs, built),
                      ram(*costs, built.effects, s, built.width), {}};
                 c.seconds = options.mhz > 0 ? c.instructions * costs->cycles / (options.mhz * 1e6) : 0;

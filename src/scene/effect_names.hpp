@@ -35,6 +35,7 @@ constexpr EffectName effect_names[] = {
     {"eye_surface", &Effects::eye_surface},
     {"grid", &Effects::grid},
     {"adaptive", &Effects::adaptive},
+    {"windows", &Effects::windows},
     {"tree", &Effects::tree},
 };
 // Every effect is there: they are all of Effects but its depth.

@@ -87,8 +87,8 @@ def size_of(board, number):
     return SIZE if number == "float" and board == "mps2_an386" else SIZES.get(number, SIZE)
 
 
-def operations(scene, size, samples="1"):
-    text = runs.output_of(OPERATIONS, scene, size, samples)
+def operations(number, scene, size, samples="1"):
+    text = runs.output_of(OPERATIONS, number, scene, size, samples)
     return {k: float(v) for k, v in re.findall(r"^(\w+): ([\d.]+)$", text, re.M)}
 
 
@@ -210,17 +210,17 @@ class Calibration:
     def perform(self):
         runs.perform(list(self.traced.values()) + list(self.sampled.values()))
 
-    def counted(self, name, size, samples="1"):
-        key = name, size, samples
+    def counted(self, number, name, size, samples="1"):
+        key = number, name, size, samples
         if key not in self.counts:
-            self.counts[key] = operations(self.scenes[name], size, samples)
+            self.counts[key] = operations(number, self.scenes[name], size, samples)
         return self.counts[key]
 
     def measured(self, board, number):
         """{scene: what was measured}, {scene: what was counted}"""
         found = {n: run.result for (b, s, n), run in self.traced.items()
                  if (b, s) == (board, number) and "refused" not in run.result}
-        return found, {n: self.counted(n, size_of(board, number)) for n in found}
+        return found, {n: self.counted(number, n, size_of(board, number)) for n in found}
 
     def fit(self, board, number):
         measured, counted = self.measured(board, number)
@@ -239,7 +239,7 @@ class Calibration:
             if run is None or "refused" in run.result:
                 continue
             one = self.traced[board, number, name].result
-            counts = self.counted(name, run.size, SAMPLINGS[kind][0])
+            counts = self.counted(number, name, run.size, SAMPLINGS[kind][0])
             ratio.append(run.result["instructions"] / self.costs[board, number].predict(counts))
             flash.append(max(run.result["flash"] - one["flash"], 0))
             stack.append(max(run.result["stack_bound"] - one["stack_bound"], 0))

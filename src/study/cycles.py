@@ -40,7 +40,7 @@ TEXTURES = ["checker", "stripes", "gradient", "rings", "noise", "marble", "wood"
 # What was inlined into none (arithmetic out of line, the compiler's library) counts for the step that called
 # it.
 STEPS = {
-    "camera": "camera", "render": "camera", "grid": "camera", "adaptive": "camera",
+    "camera": "camera", "render": "camera", "grid": "camera", "adaptive": "camera", "windows": "camera",
     "sphere": "spheres", "disc": "discs", "cone": "cones", "polygon": "polygons", "patch": "patches",
     "nearest": "nearest hit", "tree": "nearest hit", "shadow": "nearest hit", "see_through": "nearest hit",
     "trace": "shading", "highlight": "shading", "light": "shading", "sun": "shading", "mirror": "shading",

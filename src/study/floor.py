@@ -91,7 +91,7 @@ def price(board, of):
 
 def counts(scene, size):
     """What drawing the scene asks for."""
-    done = subprocess.run(["build/study/operations", scene, size], check=True, capture_output=True, text=True)
+    done = subprocess.run(["build/study/operations", "q32", scene, size], check=True, capture_output=True, text=True)
     found = {k: float(v) for k, v in re.findall(r"^(\w+): ([\d.]+)$", done.stdout, re.M)}
     known = set(operations(True)) | BESIDE
     other = [k for k, v in found.items() if v and k not in known and not re.match("effect_|tables_", k)]

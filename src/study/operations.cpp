@@ -1,7 +1,7 @@
 // The counts that predictions start from (src/cli/counts.hpp), for calibration.
-//   operations SCENE WxH [SAMPLES | aLEVELS,THRESHOLD]
+//   operations NUMBER SCENE WxH [SAMPLES | aLEVELS,THRESHOLD]
 // One `name: value` a line: its counts, its effects, its kinds of shapes and its balls, and the bytes of its
-// tables in each number system that it fits.
+// tables in each number system that it fits. The number system decides whether a compiled scene has windows.
 #include "../cli/counts.hpp"
 #include "../cli/input.hpp"
 #include "../cli/options.hpp"
@@ -24,21 +24,21 @@ int main(int argc, char** argv)
 {
     using namespace qray;
     scene::Settings settings;
-    if (argc < 3 || sscanf(argv[2], "%ux%u", &settings.width, &settings.height) != 2) {
-        fputs("usage: operations SCENE WxH [SAMPLES | aLEVELS,THRESHOLD]\n", stderr);
+    if (argc < 4 || sscanf(argv[3], "%ux%u", &settings.width, &settings.height) != 2) {
+        fputs("usage: operations NUMBER SCENE WxH [SAMPLES | aLEVELS,THRESHOLD]\n", stderr);
         return 2;
     }
-    if (argc > 3) {
-        if (sscanf(argv[3], "a%u,%lf", &settings.levels, &settings.threshold) != 2)
-            settings.grid = static_cast<uint32_t>(lround(sqrt(atof(argv[3]))));
+    if (argc > 4) {
+        if (sscanf(argv[4], "a%u,%lf", &settings.levels, &settings.threshold) != 2)
+            settings.grid = static_cast<uint32_t>(lround(sqrt(atof(argv[4]))));
     }
     scene::Error error;
-    if (!cli::read_scene(argv[1], description, error)
+    if (!cli::read_scene(argv[2], description, error)
         || !scene::Builder<Double>(description, settings, storage).build(error)) {
         fprintf(stderr, "%s\n", error.text);
         return 1;
     }
-    const cli::OperationCounts counts = cli::count_operations(description, settings, 1);
+    const cli::OperationCounts counts = cli::count_operations(description, settings, 1, argv[1][0] != 'q');
     for (int i = 0; i < cli::operation_count; i++)
         printf("%s: %.1f\n", cli::operation_names[i], counts.of[i]);
     for (const scene::EffectName& e : scene::effect_names)

@@ -36,8 +36,8 @@ MATERIAL = {
 EYE = {"sphere": "0 0 0.5", "disc": "0 1 -1", "cone": "1 0 0.3", "polygon": "-1 -1 0", "patch": "1 1 0"}
 EFFECTS = [*SHAPE, *TEXTURE, *LIGHT, "shadow", "see_through", *MATERIAL, "eye_surface", "grid", "adaptive"]
 # What a scene lacks beside an effect: light comes through surfaces that transmit; samples are taken in one
-# way. No firmware has a tree.
-WITHOUT = {effect: {"adaptive"} for effect in [*EFFECTS, "tree"]} | {"grid": set(), "adaptive": set()}
+# way. No firmware has a tree, and none in fixed point windows.
+WITHOUT = {effect: {"adaptive"} for effect in [*EFFECTS, "tree", "windows"]} | {"grid": set(), "adaptive": set()}
 WITHOUT["shadow"] |= {"see_through"}
 WITHOUT["see_through"] |= {"transmit"}
 WITHOUT["transmit"] |= {"see_through"}
@@ -129,7 +129,7 @@ class ZeroCost(unittest.TestCase):
         absent = set(EFFECTS) - {"sphere", "light"}
         whole = self.compiled("least", absent, HEADERS)
         self.assertEqual(effects_of("least"), {"sphere", "light"})
-        self.assertEqual(self.compiled("least", absent, reduced([*absent, "tree"], "least_reduced")), whole)
+        self.assertEqual(self.compiled("least", absent, reduced([*absent, "tree", "windows"], "least_reduced")), whole)
 
     # What a scene does call for cannot be reduced.
     def test_it_can_fail(self):
