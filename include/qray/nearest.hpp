@@ -104,16 +104,23 @@ QRAY_INLINE constexpr ShapeSet near_shapes(const Scene<N, E>& scene, const Ray<N
 
 // Calls f(shape, kind, index) for the shapes of a set, until it returns true.
 template <class N, Effects E, class F>
-QRAY_INLINE constexpr void for_each_in_sight(const Scene<N, E>& scene, ShapeSet set, F f)
+QRAY_INLINE constexpr void for_each_in_sight(const Scene<N, E>& scene, const Ray<N>& ray, ShapeSet set, F f)
 {
-    const auto all_of = [&set, f](const auto& table, Kind kind) __attribute__((always_inline)) {
+    // A sphere is its ball. What lies out of another's, as a hit on a polygon may whose corners are no plane's, is none.
+    const auto ask = [&](const auto& shape, Kind kind, uint32_t index) __attribute__((always_inline)) {
+        if constexpr (requires { shape.bound; })
+            if (surely_missed(shape, NarrowRay<N>(ray)))
+                return false;
+        return f(shape, kind, index);
+    };
+    const auto all_of = [&set, ask](const auto& table, Kind kind) __attribute__((always_inline)) {
         ShapeSet part = set & ~(0xffffffff >> table.count);
         set <<= table.count;
         if (__builtin_constant_p(table.count == 1) && table.count == 1)
-            return part != 0 && f(table.data[0], kind, 0);
+            return part != 0 && ask(table.data[0], kind, 0);
         while (part != 0) {
             const uint32_t i = static_cast<uint32_t>(count_leading_zeros(part));
-            if (f(table[i], kind, i))
+            if (ask(table[i], kind, i))
                 return true;
             part &= ~set_of(i);
         }
@@ -142,7 +149,7 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
                                               [[maybe_unused]] ShapeSet set, [[maybe_unused]] Limit limit, F f)
 {
     if constexpr (E.windows) {
-        for_each_in_sight(scene, near_shapes(scene, ray, set), f);
+        for_each_in_sight(scene, ray, near_shapes(scene, ray, set), f);
     } else if constexpr (E.tree) {
         walk(scene.tree.value, ray, limit, [&](auto id) QRAY_INLINE_LAMBDA {
             return with_shape(scene, id.kind(), id.index(), f);

@@ -52,9 +52,9 @@ public:
         for (uint32_t i = 0; i < s.cones.count; i++)
             add_ball(s.cones.data[i].middle, s.cones.data[i].bound);
         for (uint32_t i = 0; i < s.polygons.count; i++)
-            add_ball(s.polygons.data[i].middle, s.polygons.data[i].bound);
+            add_ball(s.polygons.data[i].middle, s.polygons.data[i].bound, true);
         for (uint32_t i = 0; i < s.patches.count; i++)
-            add_ball(s.patches.data[i].middle, s.patches.data[i].bound);
+            add_ball(s.patches.data[i].middle, s.patches.data[i].bound, true);
         for (uint32_t i = 0; i < s.discs.count; i++)
             add_flat(s.discs.data[i].centre, s.discs.data[i].radius, s.discs.data[i].normal, s.discs.data[i].tag);
         find_floor();
@@ -78,6 +78,7 @@ private:
         double radius;
         Vec3d normal; // of a disc
         Tag tag;
+        bool is_thin = false; // what a ray meets almost along its plane, it may meet anywhere on the line through the ball
         bool is_flat() const { return !(tag == Tag{Tag::none}); }
         double above(const Vec3d& p) const { return dot(normal, p - centre); }
     };
@@ -114,9 +115,9 @@ private:
         direction = transposed({right, down, corner});
     }
 
-    void add_ball(const Point<N>& centre, typename N::Length radius)
+    void add_ball(const Point<N>& centre, typename N::Length radius, bool thin = false)
     {
-        solids[count++] = {point(centre), static_cast<double>(radius) * (1 + relative) + slack, {}, {Tag::none}};
+        solids[count++] = {point(centre), static_cast<double>(radius) * (1 + relative) + slack, {}, {Tag::none}, thin};
     }
     void add_flat(const Point<N>& centre, typename N::Length radius, const Direction<N>& normal, Tag tag)
     {
@@ -206,6 +207,8 @@ private:
     // May a ball shade the floor where rays from another reach it in an octant? In boxes around the shadow's ways.
     bool shades_floor(const Storage<N>& s, const Solid& from, uint32_t octant, const Solid& by) const
     {
+        if (by.is_thin)
+            return true;
         const double above = ground->above(by.centre);
         const auto reaches = [&](Range stretch, const Vec3d& start, const Vec3d& way, double radius) {
             const auto open = [&](double at, double start_at, double along, uint32_t bit) {
@@ -253,6 +256,8 @@ private:
     // radius shrinks to 0; how far that is from another ball is convex along it.
     static bool shades(const Storage<N>& s, const Solid& in, const Solid& on)
     {
+        if (in.is_thin)
+            return true;
         for (uint32_t i = 0; i < s.lights.count; i++) {
             const Vec3d light = point(s.lights.data[i].at), way = light - on.centre;
             if (in.is_flat()) {
@@ -294,6 +299,8 @@ private:
     // May a way into that octant lead from something in one ball to a shape?
     static bool faces(const Solid& from, uint32_t octant, const Solid& to)
     {
+        if (to.is_thin)
+            return true;
         const auto sign = [octant](uint32_t bit) { return octant >> bit & 1 ? -1.0 : 1.0; };
         if (to.is_flat()) {
             const double above = to.above(from.centre);
