@@ -51,7 +51,7 @@ namespace qray {
 #endif
 #define QRAY_FOR(N) \
     QRAY_ONCE template class scene::Builder<N>; \
-    QRAY_ONCE template Rgb<N> trace(const Scene<N, everything(scene::Settings::max_depth)>&, Ray<N>, test::RayCount&, Sight<false>)
+    QRAY_ONCE template Rgb<N> trace(const Scene<N, everything(scene::Settings::max_depth)>&, Ray<N>, test::RayCount&)
 QRAY_FOR(q16);
 QRAY_FOR(q32);
 QRAY_FOR(Float);

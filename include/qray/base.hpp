@@ -54,6 +54,9 @@
 #define QRAY_UNROLL
 #endif
 
+// Does the compiler see that it is so? As it may of a constant scene.
+#define QRAY_KNOWN(condition) (__builtin_constant_p(condition) && (condition))
+
 // Of a function object that asks one shape: where a tree names the shapes, in a place or two, the ray stays
 // in registers.
 #if __SIZEOF_POINTER__ == 4

@@ -18,7 +18,7 @@ struct Checker {
                 return sum & 1 ? colour : m;
         }
         const Vec<typename N::Unit>& of_cell = lattice.parity(q) & 1 ? colour : m;
-        return {of_cell.x, of_cell.y, of_cell.z};
+        return parts_of(of_cell);
     }
 };
 

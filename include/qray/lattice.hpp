@@ -216,7 +216,7 @@ struct Lattice {
     // Odd where the sum of the three cells is.
     QRAY_INLINE constexpr uint32_t parity(const Point<N>& q) const
     {
-        if constexpr (!N::is_fixed && sizeof(typename N::Length) == 4) { // one question for all three, mostly
+        if constexpr (!N::is_fixed && sizeof(typename N::Length) == 4 && !in_lanes<N>) { // one question for all three
             const auto px = x.at(q.x), py = y.at(q.y), pz = z.at(q.z);
             if (N::absolute(px) + N::absolute(py) + N::absolute(pz) < LatticeAxis<N>::whole_limit)
                 return LatticeAxis<N>::below(px) + LatticeAxis<N>::below(py) + LatticeAxis<N>::below(pz) + x.index

@@ -116,7 +116,7 @@ QRAY_INLINE constexpr void for_each_in_sight(const Scene<N, E>& scene, const Ray
     const auto all_of = [&set, ask](const auto& table, Kind kind) __attribute__((always_inline)) {
         ShapeSet part = set & ~(0xffffffff >> table.count);
         set <<= table.count;
-        if (__builtin_constant_p(table.count == 1) && table.count == 1)
+        if (QRAY_KNOWN(table.count == 1))
             return part != 0 && ask(table.data[0], kind, 0);
         while (part != 0) {
             const uint32_t i = static_cast<uint32_t>(count_leading_zeros(part));

@@ -13,13 +13,15 @@ QRAY_INLINE constexpr bool intersect_plane(typename N::Moment num, typename N::C
 {
     constexpr typename N::Moment zero_moment{};
     constexpr typename N::Cosine zero_cosine{};
-    if constexpr (N::is_fixed) {
-        if (den > zero_cosine ? !(num > zero_moment) : !(num < zero_moment))
-            return false;
-        return N::quotient(num, den, 0, t) && t > N::length_zero && t <= limit;
-    } else {
+    if constexpr (!N::is_fixed && !in_lanes<N>) { // 0 / 0, and infinity, are turned away below
         if (N::negative(num) != N::negative(den))
             return false;
+    } else if (den > zero_cosine ? !(num > zero_moment) : !(num < zero_moment)) {
+        return false;
+    }
+    if constexpr (N::is_fixed) {
+        return N::quotient(num, den, 0, t) && t > N::length_zero && t <= limit;
+    } else {
         t = num / den; // infinite is beyond the limit
         return t > N::length_zero && t <= limit;
     }

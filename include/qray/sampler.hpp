@@ -60,13 +60,13 @@ QRAY_INLINE constexpr Ray<N> eye_ray(const Scene<N, E>& scene, const Pencil<N>& 
 }
 
 template <class N, Effects E, class Count>
-constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, Sight<E.windows> sight, Count& count)
+constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, [[maybe_unused]] Sight<E.windows> sight,
+                           Count& count)
 {
     Rgb<N> c = scene.background;
-    bool empty = false;
-    if constexpr (E.windows)
-        empty = sight.is_empty();
-    if (empty)
+    if constexpr (!E.windows)
+        c = trace(scene, eye_ray(scene, at), count);
+    else if (sight.is_empty())
         count(RayKind::camera);
     else
         c = trace(scene, eye_ray(scene, at), count, sight);

@@ -38,7 +38,7 @@ struct Table {
     // The same, for a table that often has but one: if it is known to, that is known.
     constexpr const T& at(uint32_t i) const
     {
-        return data[__builtin_constant_p(count == 1) && count == 1 ? 0 : i];
+        return data[QRAY_KNOWN(count == 1) ? 0 : i];
     }
 };
 template <class T>

@@ -55,7 +55,7 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
         half = N::length_zero;
         return leaving == Leaves::inward; // however short, that chord has another end
     }
-    if constexpr (N::is_fixed)
+    if constexpr (N::is_fixed || in_lanes<N>)
         half = N::sqrt(r2 - p2);
     else
         half = N::root(r2 - p2);

@@ -117,7 +117,7 @@ QRAY_INLINE constexpr Ray<N> leaving(const Surface<N>& s, [[maybe_unused]] Kind 
         }
     if constexpr (keeps_step<N>)
         if (above)
-            return {{s.above.x, s.above.y, s.above.z}, d, tag, !s.turned};
+            return {parts_of(s.above), d, tag, !s.turned};
     return {step_off<N>(s.point, s.normal, above), d, tag, above != s.turned};
 }
 
@@ -314,9 +314,12 @@ QRAY_INLINE constexpr void accumulate(Rgb<N>& sum, const Rgb<N>& light, typename
 }
 
 // The light that comes back along an eye ray, not yet clamped to [0, 1], divided by 2^exposure.
-template <class N, Effects E, class Count>
-constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count, [[maybe_unused]] Sight<E.windows> sight = {})
+// `known`, where the scene has windows, may be the ray's sight: elsewhere not even an empty one, which would make other
+// code of a desktop's kernels.
+template <class N, Effects E, class Count, class... Known>
+constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count, Known... known)
 {
+    [[maybe_unused]] Maybe<Sight<E.windows>, E.windows> sight{known...};
     Rgb<N> sum{N::black, N::black, N::black};
     [[maybe_unused]] Maybe<Stack<N, E>, E.transmit> stack;
     if constexpr (E.transmit)
@@ -328,7 +331,7 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count, [[may
         Hit<N> hit;
         bool found = false;
         if constexpr (E.windows)
-            found = nearest(scene, ray, hit, sight.ahead());
+            found = nearest(scene, ray, hit, sight.value.ahead());
         else
             found = nearest(scene, ray, hit);
         if (!found) {
@@ -339,8 +342,8 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count, [[may
             Seen<N, E.windows> seen{s, hit.kind, hit.tag, material, ray.direction, {}};
             if constexpr (E.windows) {
                 const bool on_floor = hit.tag == scene.windows.value.floor;
-                seen.blockers.value = on_floor ? sight.before_light() : every_shape;
-                sight = on_floor ? sight.in_floor() : Sight<E.windows>{};
+                seen.blockers.value = on_floor ? sight.value.before_light() : every_shape;
+                sight.value = on_floor ? sight.value.in_floor() : Sight<E.windows>{};
                 if constexpr (E.sphere)
                     if ((E.shapes() == 1 || hit.kind == Kind::sphere) && !s.turned)
                         seen.blockers.value = scene.windows.value.blockers[hit.index];
@@ -373,13 +376,13 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count, [[may
                         }
                     }
                     const auto w = N::unit(weight * reflect);
-                    if (w >= scene.cutoff.value && (scene.cutoff.value > N::zero || w > N::zero)) {
+                    if (w >= scene.cutoff.value && (QRAY_KNOWN(scene.cutoff.value > N::zero) || w > N::zero)) {
                         count(RayKind::mirrored);
                         ray = going_on<N, E>(s, hit.kind, hit.tag,
                                              mirrored<N>(ray.direction, s.normal, s.n_d), true, -s.n_d);
                         if constexpr (E.windows && E.sphere)
                             if ((E.shapes() == 1 || hit.kind == Kind::sphere) && !s.turned)
-                                sight = {scene.windows.value.octants[hit.index][octant_of<N>(ray.direction)]};
+                                sight.value = {scene.windows.value.octants[hit.index][octant_of<N>(ray.direction)]};
                         weight = w;
                         depth++;
                         continue;

@@ -21,6 +21,16 @@ struct Vec {
     }
 };
 
+// A copy part by part, which leaves the parts in registers where a copy of the whole goes through memory.
+template <class T>
+QRAY_INLINE constexpr Vec<T> parts_of(const Vec<T>& a)
+{
+    if constexpr (requires { a.lanes; })
+        return a;
+    else
+        return {a.x, a.y, a.z};
+}
+
 // Are its vectors one register each? Then vec_lanes.hpp has the functions below.
 template <class N>
 inline constexpr bool in_lanes = QRAY_LANES && (N::is_fixed ? !IsNarrow<N> : sizeof(typename N::Length) == 4);
@@ -59,20 +69,15 @@ QRAY_INLINE constexpr Vec<typename N::Colour> scaled(typename N::Unit k, const V
 
 // dot() and along() for the normal of a flat surface. In a constant table it often lies along an axis, and products with
 // 0 change nothing but the sign of a floating-point 0.
-template <class F>
-QRAY_INLINE constexpr bool surely_zero(F a)
-{
-    return __builtin_constant_p(a == 0) && a == 0;
-}
 template <class N, class A>
 QRAY_INLINE constexpr auto dot_normal(const Vec<A>& a, const Vec<typename N::Unit>& n)
 {
     if constexpr (!N::is_fixed && InParts<N>) {
-        if (surely_zero(n.x) && surely_zero(n.z))
+        if (QRAY_KNOWN(n.x == 0) && QRAY_KNOWN(n.z == 0))
             return a.y * n.y;
-        if (surely_zero(n.x) && surely_zero(n.y))
+        if (QRAY_KNOWN(n.x == 0) && QRAY_KNOWN(n.y == 0))
             return a.z * n.z;
-        if (surely_zero(n.y) && surely_zero(n.z))
+        if (QRAY_KNOWN(n.y == 0) && QRAY_KNOWN(n.z == 0))
             return a.x * n.x;
     }
     return dot<N>(a, n);
@@ -81,7 +86,7 @@ template <class N>
 QRAY_INLINE constexpr Vec<typename N::Length> along_normal(typename N::Length t, const Vec<typename N::Unit>& n)
 {
     if constexpr (!N::is_fixed && InParts<N>)
-        return {surely_zero(n.x) ? 0 : t * n.x, surely_zero(n.y) ? 0 : t * n.y, surely_zero(n.z) ? 0 : t * n.z};
+        return {QRAY_KNOWN(n.x == 0) ? 0 : t * n.x, QRAY_KNOWN(n.y == 0) ? 0 : t * n.y, QRAY_KNOWN(n.z == 0) ? 0 : t * n.z};
     else
         return along<N>(t, n);
 }
