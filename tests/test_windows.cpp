@@ -56,11 +56,12 @@ std::string numbers(std::initializer_list<double> list)
 std::string random_scene(Random& random)
 {
     const auto in = [&random](double low, double high) { return random.uniform(low, high); };
-    std::string text = "v from" + numbers({in(-3, 3), in(0.2, 4), in(4, 9)}) + " at" + numbers({in(-1, 1), in(-1, 2), 0})
-        + " up" + numbers({in(-0.3, 0.3), 1, in(-0.3, 0.3)}) + " angle" + numbers({in(20, 100)})
+    std::string text = "v from" + numbers({in(-3, 3), random.bits() % 8 ? in(0.2, 4) : in(0.0005, 0.05), in(4, 9)}) + " at" + numbers({in(-1, 1), in(-1, 2), 0})
+        + " up" + numbers({in(-0.3, 0.3), 1, in(-0.3, 0.3)}) + " angle" + numbers({in(20, random.bits() % 8 ? 100 : 170)})
         + " hither 0 resolution 29 23\n b 0.3 0.4 0.5\n";
+    const double far = random.bits() % 4 ? 1 : std::pow(10, in(0, 9));
     for (uint64_t lights = 1 + random.bits() % 2; lights > 0; lights--)
-        text += random.bits() % 2 ? "l" + numbers({in(-6, 6), in(0.5, 8), in(-6, 6), 0.8, 0.7, 0.6}) + "\n"
+        text += random.bits() % 2 ? "l" + numbers({in(-6, 6) * far, in(0.5, 8) * far, in(-6, 6) * far, 0.8, 0.7, 0.6}) + "\n"
                                   : "sun" + numbers({in(-1, 1), in(-0.2, 1), in(-1, 1), 0.6, 0.6, 0.7}) + "\n";
     if (random.bits() % 4 != 0)
         text += "material colour 0.8 0.8 0.8 diffuse 0.7 mirror 0.4 texture checker 0.1 0.1 0.1 0.7\n"
@@ -70,7 +71,7 @@ std::string random_scene(Random& random)
         text += "material colour" + numbers({in(0, 1), in(0, 1), in(0, 1)}) + " diffuse 0.6 highlight 0.5 shine 20 mirror"
             + numbers({random.bits() % 2 ? 0.0 : in(0, 0.8)})
             + (random.bits() % 3 ? "\n" : " transmit" + numbers({in(0, 0.2)}) + " ior 1.4\n");
-        const double r = in(0.05, 1);
+        const double r = random.bits() % 4 ? in(0.05, 1) : std::pow(10, in(-3, 0));
         const Vec3 p = random.point(2), q = p + random.direction() * r, s = p + random.direction() * r;
         switch (random.bits() % 9) {
         case 0: text += "disc" + numbers({p.x, p.y, p.z, q.x - p.x, q.y - p.y, q.z - p.z, r}); break;
@@ -112,7 +113,7 @@ bool pictures(const std::string& text, const scene::Settings& settings, std::vec
 TYPED_TEST(WindowsTest, PicturesAreThoseWithoutThem)
 {
     using N = TypeParam;
-    Random random(23);
+    Random random(283); // with a light so far away that its shadows have no form in double
     int with_windows = 0;
     for (int k = 0; k < 150; k++) {
         const std::string text = random_scene(random);

@@ -354,6 +354,10 @@ private:
         const auto seen_from = [&](const Vec3d& p) { return outer(eye - p, n) + identity * height; };
         for (uint32_t i = 0; i < s.lights.count; i++) {
             const Vec3d at = point(s.lights.data[i].at);
+            // What the form amounts to, near h^2 r^2, is the rest of terms as large as the fourth power of the distances.
+            const double far = fmax(1, fmax(length(at - eye), length(at - ball.centre)));
+            if (pow(far, 4) * 1e-12 > height * height * ball.radius * ball.radius)
+                return whole;
             const Matrix3 a = seen_from(at);
             join(w, box(transposed(a) * lines(ball.centre - at, ball.radius) * a));
         }
