@@ -48,7 +48,7 @@ class Parts(unittest.TestCase):
             floor.counts("scenes/showcase.nff", "16x12")
 
     def test_every_step_of_a_scene_is_counted(self):
-        done = subprocess.run(["build/study/operations", floor.SCENE, "16x12"], capture_output=True, text=True)
+        done = subprocess.run(["build/study/operations", "q32", floor.SCENE, "16x12"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         found = floor.counts(floor.SCENE, "16x12")
         self.assertEqual(found["pixel"], 192)

@@ -72,8 +72,8 @@ class Plan(unittest.TestCase):
 
 
 class Counts(unittest.TestCase):
-    def counts(self, scene, size, *words):
-        status, out, err = run(OPERATIONS, scene, size, *words)
+    def counts(self, scene, size, *words, number="q32"):
+        status, out, err = run(OPERATIONS, number, scene, size, *words)
         self.assertEqual(status, 0, err)
         return {k: float(v) for k, v in re.findall(r"^(\w+): ([\d.]+)$", out, re.M)}
 
@@ -92,14 +92,23 @@ class Counts(unittest.TestCase):
             for name in ("shadow_ray", "disc_test", "mirrored", "refracted", "checker"):
                 self.assertEqual(c[name], 0, name)
 
-    def one_ray(self, *lines):
+    def one_ray(self, *lines, number="q32"):
         """Of a picture of one pixel, seen from the origin along -z."""
         os.makedirs("build/study", exist_ok=True)
         path = "build/study/test_plan.nff"
         with open(path, "w") as file:
             file.write("v from 0 0 0 at 0 0 -1 up 0 1 0 angle 1 hither 1 resolution 1 1\n")
             file.writelines(line + "\n" for line in lines)
-        return self.counts(path, "1x1")
+        return self.counts(path, "1x1", number=number)
+
+    # In floating point windows leave out what the one pixel cannot meet: two balls of three, or all.
+    def test_windows(self):
+        balls = ["shadows off", "s 0 0 -9 1", "s 50 0 -9 1", "s 0 -50 -9 1"]
+        for number, tests in (("q16", 3), ("q32", 3), ("float", 1), ("double", 1)):
+            c = self.one_ray(*balls, number=number)
+            self.assertEqual((c["ray"], c["sphere_test"], c["sphere_seen"]), (1, tests, 1), number)
+        c = self.one_ray(balls[0], *balls[2:], number="float")
+        self.assertEqual((c["sample"], c["ray"], c["sphere_test"]), (1, 0, 0))
 
     # One ray along the axis of ten balls, five of them behind it, and of five aside.
     def test_how_far_a_test_goes(self):
