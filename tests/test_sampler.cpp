@@ -27,6 +27,7 @@ TYPED_TEST(SamplerTest, ColoursAreClampedToOne)
             const auto colour = M::colour(c * k);
             const double expected = std::fmin(1, value(colour) / k);
             EXPECT_EQ(level<N>(Sample<N>::clamped(colour, exposure)), expected) << c << " " << exposure;
+            EXPECT_EQ(level<N>(Sample<N>::clamped_light(colour, exposure)), expected) << c << " " << exposure;
         }
     }
     if constexpr (N::is_fixed)

@@ -13,6 +13,7 @@ struct Sample {
     static constexpr Level one = uint32_t{1} << frac;
     Level r, g, b;
 
+    static constexpr Level clamped_light(typename N::Colour c, int exposure) { return clamped(c, exposure); }
     static constexpr Level clamped(typename N::Colour c, int exposure)
     {
         const int32_t limit = (int32_t{1} << N::Colour::frac) >> exposure;
@@ -37,16 +38,23 @@ struct Sample<N> {
 
     static constexpr Level clamped(Level c, int)
     {
-        if constexpr (sizeof(Level) == 4) { // of what is not negative, in the order of its bits
+        const Level v = c > 0 ? c : Level(0);
+        return v < one ? v : one;
+    }
+    // The same of light, which is never negative: of float in the order of its bits.
+    static constexpr Level clamped_light(Level c, int)
+    {
+        if constexpr (sizeof(Level) == 4) {
             const int32_t bits = __builtin_bit_cast(int32_t, c), most = __builtin_bit_cast(int32_t, one);
             return __builtin_bit_cast(Level, bits < most ? bits : most);
+        } else {
+            return c < one ? c : one;
         }
-        return c < one ? c : one;
     }
     // As above: the 255-fold of a mean of round decimals may end 32 epsilon below a half.
     static constexpr uint8_t byte(Level v)
     {
-        return static_cast<uint8_t>(static_cast<uint32_t>(v * 255 + (Level(0.5) + 32 * N::epsilon)));
+        return static_cast<uint8_t>(static_cast<int32_t>(v * 255 + (Level(0.5) + 32 * N::epsilon)));
     }
 };
 
@@ -70,8 +78,8 @@ constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, [[mayb
         count(RayKind::camera);
     else
         c = trace(scene, eye_ray(scene, at), count, sight);
-    return {Sample<N>::clamped(c.x, scene.exposure), Sample<N>::clamped(c.y, scene.exposure),
-            Sample<N>::clamped(c.z, scene.exposure)};
+    return {Sample<N>::clamped_light(c.x, scene.exposure), Sample<N>::clamped_light(c.y, scene.exposure),
+            Sample<N>::clamped_light(c.z, scene.exposure)};
 }
 
 struct Pixel {
