@@ -54,7 +54,7 @@ struct Sample<N> {
     // As above: the 255-fold of a mean of round decimals may end 32 epsilon below a half.
     static constexpr uint8_t byte(Level v)
     {
-        return static_cast<uint8_t>(static_cast<int32_t>(v * 255 + (Level(0.5) + 32 * N::epsilon)));
+        return static_cast<uint8_t>(static_cast<uint32_t>(v * 255 + (Level(0.5) + 32 * N::epsilon)));
     }
 };
 
