@@ -132,7 +132,7 @@ struct Surface {
     bool turned;          // the normal was turned
 };
 
-// With the point where rays start that leave to the viewer's side, where a step takes long and registers are many.
+// With the point where rays start that leave to the viewer's side, where a step takes long to find.
 template <class N>
 inline constexpr bool keeps_step = !N::is_fixed;
 template <class N>

@@ -7,7 +7,7 @@
 
 namespace qray {
 
-// What render_pixel() is in a row.
+// A pixel whose sight is known, as in a row it is from the pixel before.
 template <class N, Effects E, class Count>
 constexpr Pixel pixel_in_row(const Scene<N, E>& scene, uint32_t i, uint32_t j, [[maybe_unused]] Sight<E.windows> sight,
                              Count& count)

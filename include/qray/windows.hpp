@@ -53,6 +53,7 @@ constexpr uint32_t octant_of(const Direction<N>& d)
     return uint32_t{N::negative(d.x)} | uint32_t{N::negative(d.y)} << 1 | uint32_t{N::negative(d.z)} << 2;
 }
 
+// The sights of a row of pixels: the sets of those columns and rows that have begun and not ended.
 template <>
 struct Sweep<true> {
     const Edge* next;
@@ -71,4 +72,5 @@ struct Sweep<true> {
         return {sets};
     }
 };
+
 } // namespace qray

@@ -186,7 +186,8 @@ size_t predict(const Options& options, const Rows& rows)
                 else if (!spawns[n])
                     continue;
                 Candidate& c = candidates[found];
-                c = {costs, static_cast<int>(n), s, instructions(*costs, n >= static_cast<size_t>(Number::single_float) ? floating : fixed, built.effects, s), 0,
+                const OperationCounts& counts = n >= static_cast<size_t>(Number::single_float) ? floating : fixed;
+                c = {costs, static_cast<int>(n), s, instructions(*costs, counts, built.effects, s), 0,
                      flash(*costs, built),
                      ram(*costs, built.effects, s, built.width), {}};
                 c.seconds = options.mhz > 0 ? c.instructions * costs->cycles / (options.mhz * 1e6) : 0;

@@ -87,7 +87,7 @@ private:
     const Solid* ground = nullptr;
 
     Vec3d eye;
-    double height = 0; // of the floor above the eye, along its normal
+    double height = 0; // of the floor above the eye, along the floor's normal
     Matrix3 direction; // of the ray through a place on the picture, in pixels, from that (times a factor)
     double width = 0, tall = 0;
 
