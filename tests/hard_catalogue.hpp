@@ -4,13 +4,13 @@
 // needs a library, and what decides is never the code under test.
 #pragma once
 
-#include <qray/cone.hpp>
-#include <qray/disc.hpp>
-#include <qray/lattice.hpp>
-#include <qray/mirror.hpp>
-#include <qray/polygon.hpp>
-#include <qray/sphere.hpp>
-#include <qray/transmit.hpp>
+#include <qray/shape/cone.hpp>
+#include <qray/shape/disc.hpp>
+#include <qray/texture/lattice.hpp>
+#include <qray/surface/mirror.hpp>
+#include <qray/shape/polygon.hpp>
+#include <qray/shape/sphere.hpp>
+#include <qray/surface/transmit.hpp>
 
 #if defined(__clang__)
 #pragma clang diagnostic ignored "-Wdouble-promotion"

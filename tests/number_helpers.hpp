@@ -8,7 +8,7 @@
 #include <string>
 #include <type_traits>
 
-#include <qray/ray.hpp>
+#include <qray/vector/ray.hpp>
 
 #ifdef __clang__ // to long double too, which these tests mean
 #pragma clang diagnostic ignored "-Wdouble-promotion"

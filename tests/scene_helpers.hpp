@@ -5,7 +5,7 @@
 
 #include "../src/scene/builder.hpp"
 
-#include <qray/render.hpp>
+#include <qray/picture/render.hpp>
 
 #include <string>
 #include <vector>

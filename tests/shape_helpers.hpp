@@ -2,11 +2,11 @@
 // interface: hit(), normal() and crossings(), whatever their headers need to be told.
 #pragma once
 
-#include <qray/cone.hpp>
-#include <qray/disc.hpp>
-#include <qray/patch.hpp>
-#include <qray/polygon.hpp>
-#include <qray/sphere.hpp>
+#include <qray/shape/cone.hpp>
+#include <qray/shape/disc.hpp>
+#include <qray/shape/patch.hpp>
+#include <qray/shape/polygon.hpp>
+#include <qray/shape/sphere.hpp>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // Adaptive sampling against coverages and counts worked out by hand from scenes/README.md, section 5.
 #include "scene_helpers.hpp"
 
-#include <qray/adaptive.hpp>
+#include <qray/picture/adaptive.hpp>
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "../include/qray/base.hpp"
+#include "../include/qray/number/base.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <qray/camera.hpp>
+#include <qray/scene/camera.hpp>
 
 #include "number_helpers.hpp"
 

@@ -1,4 +1,4 @@
-#include <qray/effects.hpp>
+#include <qray/scene/effects.hpp>
 
 #include <gtest/gtest.h>
 

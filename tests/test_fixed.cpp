@@ -1,4 +1,4 @@
-#include <qray/fixed.hpp>
+#include <qray/number/fixed.hpp>
 
 #include "number_helpers.hpp"
 

@@ -1,4 +1,4 @@
-#include <qray/grid.hpp>
+#include <qray/picture/grid.hpp>
 
 #include "number_helpers.hpp"
 

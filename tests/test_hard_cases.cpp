@@ -3,8 +3,8 @@
 #include "scene_helpers.hpp"
 #include "texture_helpers.hpp"
 
-#include <qray/mirror.hpp>
-#include <qray/transmit.hpp>
+#include <qray/surface/mirror.hpp>
+#include <qray/surface/transmit.hpp>
 
 #include <limits>
 

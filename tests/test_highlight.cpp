@@ -1,4 +1,4 @@
-#include <qray/highlight.hpp>
+#include <qray/surface/highlight.hpp>
 
 #include "number_helpers.hpp"
 

@@ -1,4 +1,4 @@
-#include <qray/lattice.hpp>
+#include <qray/texture/lattice.hpp>
 
 #include "texture_helpers.hpp"
 

@@ -1,6 +1,6 @@
 // Point lights; a sun (sun.hpp) is data alone.
-#include <qray/light.hpp>
-#include <qray/sun.hpp>
+#include <qray/light/light.hpp>
+#include <qray/light/sun.hpp>
 
 #include "number_helpers.hpp"
 

@@ -1,4 +1,4 @@
-#include "../include/qray/math.hpp"
+#include "../include/qray/number/math.hpp"
 
 #include <gtest/gtest.h>
 

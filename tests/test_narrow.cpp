@@ -1,5 +1,5 @@
 // The narrow reject may turn away what a ray misses, and never what it meets.
-#include <qray/narrow.hpp>
+#include <qray/shape/narrow.hpp>
 
 #include "scene_helpers.hpp"
 #include "shape_helpers.hpp"

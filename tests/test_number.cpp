@@ -1,4 +1,4 @@
-#include <qray/number.hpp>
+#include <qray/number/number.hpp>
 
 #include "number_helpers.hpp"
 

@@ -1,4 +1,4 @@
-#include <qray/ray.hpp>
+#include <qray/vector/ray.hpp>
 
 #include "number_helpers.hpp"
 

@@ -1,6 +1,6 @@
 // Mirrored directions; a mirror (mirror.hpp) is data alone.
-#include <qray/mirror.hpp>
-#include <qray/reflection.hpp>
+#include <qray/surface/mirror.hpp>
+#include <qray/surface/reflection.hpp>
 
 #include "number_helpers.hpp"
 

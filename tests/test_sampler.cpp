@@ -1,4 +1,4 @@
-#include <qray/sampler.hpp>
+#include <qray/picture/sampler.hpp>
 
 #include "number_helpers.hpp"
 

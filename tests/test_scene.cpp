@@ -1,5 +1,5 @@
 // A scene's tables: what an effect set does not hold is not stored. Materials (material.hpp) are such tables alone.
-#include <qray/scene.hpp>
+#include <qray/scene/scene.hpp>
 
 #include "number_helpers.hpp"
 

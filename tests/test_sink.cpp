@@ -1,4 +1,4 @@
-#include <qray/sink.hpp>
+#include <qray/picture/sink.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Checker, stripes, gradient, rings, noise, marble, wood and brick, each against its definition.
-#include <qray/brick.hpp>
-#include <qray/checker.hpp>
-#include <qray/gradient.hpp>
-#include <qray/marble.hpp>
-#include <qray/noise.hpp>
-#include <qray/rings.hpp>
-#include <qray/stripes.hpp>
-#include <qray/wood.hpp>
+#include <qray/texture/brick.hpp>
+#include <qray/texture/checker.hpp>
+#include <qray/texture/gradient.hpp>
+#include <qray/texture/marble.hpp>
+#include <qray/texture/noise.hpp>
+#include <qray/texture/rings.hpp>
+#include <qray/texture/stripes.hpp>
+#include <qray/texture/wood.hpp>
 
 #include "texture_helpers.hpp"
 

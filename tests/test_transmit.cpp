@@ -1,4 +1,4 @@
-#include <qray/transmit.hpp>
+#include <qray/surface/transmit.hpp>
 
 #include "number_helpers.hpp"
 

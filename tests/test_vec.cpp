@@ -1,4 +1,4 @@
-#include <qray/vec.hpp>
+#include <qray/vector/vec.hpp>
 
 #include "number_helpers.hpp"
 

@@ -1,4 +1,4 @@
 // qray: everything a program needs to draw a compiled scene.
 #pragma once
 
-#include "render.hpp"
+#include "picture/render.hpp"

@@ -2,7 +2,7 @@
 // each counts and then asks the tracer's.
 #include "counts.hpp"
 
-#include <qray/render.hpp>
+#include <qray/picture/render.hpp>
 
 #include "../scene/builder.hpp"
 #include "../scene/window_builder.hpp"

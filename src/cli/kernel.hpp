@@ -3,7 +3,7 @@
 // vectors in registers (lanes_*.cpp), for processors that have such.
 #pragma once
 
-#include <qray/render.hpp>
+#include <qray/picture/render.hpp>
 
 #include "../scene/builder.hpp"
 

@@ -31,7 +31,7 @@ struct Renderer {
 extern const Renderer q16_renderer, q32_renderer, float_renderer, double_renderer;
 inline const Renderer* const renderers[] = {&q16_renderer, &q32_renderer, &float_renderer, &double_renderer};
 
-// The same pictures with vectors in registers (include/qray/lanes.hpp): null where they were not compiled.
+// The same pictures with vectors in registers (include/qray/number/lanes.hpp): null where they were not compiled.
 extern const Renderer q32_lanes_renderer __attribute__((weak)), float_lanes_renderer __attribute__((weak));
 // What draws the fastest on this processor. Its scene's tables are not those of a compiled scene.
 const Renderer& fastest_renderer(Number number);

@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-#include <qray/camera.hpp>
-#include <qray/lattice.hpp>
+#include <qray/scene/camera.hpp>
+#include <qray/texture/lattice.hpp>
 
 #include "description.hpp"
 

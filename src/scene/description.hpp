@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <qray/material.hpp>
+#include <qray/surface/material.hpp>
 
 #include "vec3d.hpp"
 

@@ -1,7 +1,7 @@
 // The effects by name, in the order of Effects.
 #pragma once
 
-#include <qray/effects.hpp>
+#include <qray/scene/effects.hpp>
 
 namespace qray::scene {
 

@@ -4,7 +4,7 @@
 
 #include <type_traits>
 
-#include <qray/scene.hpp>
+#include <qray/scene/scene.hpp>
 
 #include "description.hpp"
 

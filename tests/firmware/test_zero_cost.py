@@ -3,6 +3,7 @@ the firmware is the same, byte for byte. From the top of the repository:
 python3 tests/firmware/test_zero_cost.py"""
 
 import concurrent.futures
+import glob
 import os
 import re
 import shutil
@@ -92,7 +93,7 @@ def reduced(effects, name):
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(HEADERS, folder)
     for effect in effects:
-        path = f"{folder}/qray/{effect}.hpp"
+        path, = glob.glob(f"{folder}/qray/*/{effect}.hpp")
         with open(path) as file:
             text = file.read()
         with open(path, "w") as file:

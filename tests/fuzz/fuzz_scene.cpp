@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include <qray/render.hpp>
+#include <qray/picture/render.hpp>
 
 #include "../zeroed.hpp"
 #include "scene/builder.hpp"

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include <qray/render.hpp>
+#include <qray/picture/render.hpp>
 
 #include "../zeroed.hpp"
 #include "random_scene.hpp"

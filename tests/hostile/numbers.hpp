@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include <qray/reflection.hpp>
+#include <qray/surface/reflection.hpp>
 
 #include "scene/convert.hpp"
 

@@ -1,8 +1,8 @@
 // Vectors in registers: every function gives the bits that the number system's own give for each component, which their
 // tests hold to closed forms; at the ends of ranges, too.
-#include <qray/camera.hpp>
-#include <qray/light.hpp>
-#include <qray/sampler.hpp>
+#include <qray/scene/camera.hpp>
+#include <qray/light/light.hpp>
+#include <qray/picture/sampler.hpp>
 
 #include "../number_helpers.hpp"
 

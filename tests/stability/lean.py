@@ -73,15 +73,15 @@ def include(form):
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree("include", folder)
     if "sphere" not in has:
-        shutil.copy(f"{HEADERS}/sphere.hpp", f"{folder}/qray")
+        shutil.copy(f"{HEADERS}/sphere.hpp", f"{folder}/qray/shape")
         if "known" in has:
-            change(f"{folder}/qray/sphere.hpp", [(r"(lean_knows_surface = )false", r"\g<1>true")])
+            change(f"{folder}/qray/shape/sphere.hpp", [(r"(lean_knows_surface = )false", r"\g<1>true")])
     if "disc" not in has:
-        shutil.copy(f"{HEADERS}/disc.hpp", f"{folder}/qray")
+        shutil.copy(f"{HEADERS}/disc.hpp", f"{folder}/qray/shape")
     if "step" not in has:
-        change(f"{folder}/qray/number.hpp", NO_STEPS)
+        change(f"{folder}/qray/number/number.hpp", NO_STEPS)
     if "unit" not in has:
-        change(f"{folder}/qray/number.hpp", NO_LENGTHS)
+        change(f"{folder}/qray/number/number.hpp", NO_LENGTHS)
     return folder
 
 

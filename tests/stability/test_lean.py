@@ -43,14 +43,14 @@ class Headers(unittest.TestCase):
     def test_every_form_can_be_made(self):
         for form in lean.FORMS:
             folder = lean.include(form)
-            with open("include/qray/number.hpp") as one, open(f"{folder}/qray/number.hpp") as other:
+            with open("include/qray/number/number.hpp") as one, open(f"{folder}/qray/number/number.hpp") as other:
                 self.assertEqual(one.read() == other.read(), {"step", "unit"} <= lean.FORMS[form], form)
-            with open("include/qray/sphere.hpp") as one, open(f"{folder}/qray/sphere.hpp") as other:
+            with open("include/qray/shape/sphere.hpp") as one, open(f"{folder}/qray/shape/sphere.hpp") as other:
                 self.assertEqual(one.read() == other.read(), "sphere" in lean.FORMS[form], form)
 
     def test_what_is_not_there_is_named(self):
         with self.assertRaisesRegex(SystemExit, "0 places like 'nowhere'"):
-            lean.change(f"{lean.include('textbook')}/qray/sphere.hpp", [("nowhere", "")])
+            lean.change(f"{lean.include('textbook')}/qray/shape/sphere.hpp", [("nowhere", "")])
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-// The disc of a textbook in place of include/qray/disc.hpp: a threshold on t, sums that may overflow, a
+// The disc of a textbook in place of include/qray/shape/disc.hpp: a threshold on t, sums that may overflow, a
 // shadow that ends at the light's t. lean.py beside this folder builds firmware with it.
 #pragma once
 

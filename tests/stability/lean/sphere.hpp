@@ -1,4 +1,4 @@
-// The sphere of a textbook in place of include/qray/sphere.hpp: b^2 - c, a threshold on t, and a hit point
+// The sphere of a textbook in place of include/qray/shape/sphere.hpp: b^2 - c, a threshold on t, and a hit point
 // that is whatever o + t d comes to. What does not depend on the ray is stored. lean.py beside this folder
 // builds firmware with it.
 #pragma once

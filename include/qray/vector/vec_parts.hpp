@@ -2,9 +2,9 @@
 // component type: Length, Unit or Colour of a number system.
 #pragma once
 
-#include "lanes.hpp"
-#include "number.hpp"
-#include "q16.hpp"
+#include "../number/lanes.hpp"
+#include "../number/number.hpp"
+#include "../number/q16.hpp"
 
 namespace qray {
 

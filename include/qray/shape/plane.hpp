@@ -1,7 +1,7 @@
 // Where a ray meets a plane: for all flat surfaces.
 #pragma once
 
-#include "ray.hpp"
+#include "../vector/ray.hpp"
 
 namespace qray {
 

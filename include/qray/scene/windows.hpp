@@ -5,7 +5,7 @@
 // The floor is the scene's largest disc; shapes may be on either side of it.
 #pragma once
 
-#include "ray.hpp"
+#include "../vector/ray.hpp"
 #include "sight.hpp"
 
 namespace qray {

@@ -4,8 +4,8 @@
 // It only says which shapes a ray may meet: conservatively, in binary32, whatever the number system.
 #pragma once
 
-#include "lanes.hpp"
-#include "ray.hpp"
+#include "../number/lanes.hpp"
+#include "../vector/ray.hpp"
 
 namespace qray {
 

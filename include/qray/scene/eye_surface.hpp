@@ -1,7 +1,7 @@
 // The surface that the eye lies on. Rays from there leave it as those from a hit do, and do not meet it at t = 0.
 #pragma once
 
-#include "ray.hpp"
+#include "../vector/ray.hpp"
 
 namespace qray {
 

@@ -2,7 +2,7 @@
 // sampling grid, so that places are integers: with n x n cells a pixel, x = 2n i + 2k + 1 - n width.
 #pragma once
 
-#include "ray.hpp"
+#include "../vector/ray.hpp"
 
 namespace qray {
 

@@ -1,7 +1,7 @@
 // Point lights.
 #pragma once
 
-#include "ray.hpp"
+#include "../vector/ray.hpp"
 
 namespace qray {
 

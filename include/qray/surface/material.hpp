@@ -2,7 +2,7 @@
 // calls for. Coefficients and colours are in [0, 1].
 #pragma once
 
-#include "ray.hpp"
+#include "../vector/ray.hpp"
 
 namespace qray {
 

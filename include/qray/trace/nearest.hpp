@@ -1,7 +1,7 @@
 // Which shapes a ray may meet, and the nearest that it does.
 #pragma once
 
-#include "scene.hpp"
+#include "../scene/scene.hpp"
 
 namespace qray {
 

@@ -1,7 +1,7 @@
 // Phong's highlight: amount * max(0, r.v)^shine, with r the mirrored direction to the light.
 #pragma once
 
-#include "ray.hpp"
+#include "../vector/ray.hpp"
 
 namespace qray {
 

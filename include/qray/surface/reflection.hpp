@@ -1,7 +1,7 @@
 // The mirrored direction: for mirrors, and for total internal reflection.
 #pragma once
 
-#include "ray.hpp"
+#include "../vector/ray.hpp"
 
 namespace qray {
 

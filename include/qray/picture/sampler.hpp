@@ -1,7 +1,7 @@
 // Pixels from samples (scenes/README.md, section 5).
 #pragma once
 
-#include "trace.hpp"
+#include "../trace/trace.hpp"
 
 namespace qray {
 

@@ -5,7 +5,7 @@
 // texture asks for it.
 #pragma once
 
-#include "ray.hpp"
+#include "../vector/ray.hpp"
 
 namespace qray {
 

@@ -1,7 +1,7 @@
 // Refracted rays, and what total internal reflection does to the mirrored one.
 #pragma once
 
-#include "ray.hpp"
+#include "../vector/ray.hpp"
 
 namespace qray {
 
