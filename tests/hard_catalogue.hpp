@@ -132,8 +132,8 @@ struct Make {
             return Length(1) / r;
         } else {
             const int zeros = count_leading_zeros(static_cast<uint32_t>(r.raw));
-            const int shift = !IsNarrow<N> ? zeros - 1 : zeros > 17 ? zeros - 17 : 0;
-            const int64_t mantissa = (int64_t{1} << ((IsNarrow<N> ? 29 : 61) - shift)) / r.raw;
+            const int shift = !NarrowFixed<N> ? zeros - 1 : zeros > 17 ? zeros - 17 : 0;
+            const int64_t mantissa = (int64_t{1} << ((NarrowFixed<N> ? 29 : 61) - shift)) / r.raw;
             return {mantissa < INT32_MAX ? static_cast<int32_t>(mantissa) : INT32_MAX, shift};
         }
     }
@@ -263,7 +263,7 @@ QRAY_CASE(SphereAimedAMillionthOfItsRadiusBesideItsEdge)
 {
     QRAY_NAMES;
     // 16 2^-24 = 0.95e-6; in q16 a step.
-    const Length off = power_of_two<Length>(IsNarrow<N> ? -10 : -20), one = number<Length>(1);
+    const Length off = power_of_two<Length>(NarrowFixed<N> ? -10 : -20), one = number<Length>(1);
     for (int64_t sign : List{-1, 1})
         for (int64_t far : List{2, 10, 55}) {
             const Sphere<N> s = M::sphere(M::point({0, 0, 0}), 1);
@@ -286,10 +286,10 @@ QRAY_CASE(SphereAimedAMillionthOfItsRadiusBesideItsEdge)
 QRAY_CASE(SphereOfAnEleventhousandthOfItsDistance)
 {
     QRAY_NAMES;
-    const Sphere<N> s = M::sphere(M::point({30, 7, -9}), IsNarrow<N> ? 50 : 5, 1000);
-    const int64_t edge = IsNarrow<N> ? 51 : 83886, over = int64_t{1} << (IsNarrow<N> ? 10 : 24);
+    const Sphere<N> s = M::sphere(M::point({30, 7, -9}), NarrowFixed<N> ? 50 : 5, 1000);
+    const int64_t edge = NarrowFixed<N> ? 51 : 83886, over = int64_t{1} << (NarrowFixed<N> ? 10 : 24);
     // A float of 7 ends at 2^-21: from a centre of 0 only.
-    const Sphere<N> at_zero = M::sphere(M::point({30, 0, 0}), IsNarrow<N> ? 50 : 5, 1000);
+    const Sphere<N> at_zero = M::sphere(M::point({30, 0, 0}), NarrowFixed<N> ? 50 : 5, 1000);
     for (int64_t sign : List{-1, 1})
         for (int64_t out : List{0, 1}) {
             const Length y = number<Length>(sign * (edge + out), over);
@@ -348,7 +348,7 @@ bool passes_within(const Sphere<N>& s, const Ray<N>& ray, bool& certain)
     const bool inside = across < reach;
     const Wide128 off = inside ? reach - across : across - reach;
     const uint64_t r_fine = r << s.fine;
-    certain = Wide128::product(IsNarrow<N> ? r_fine * 8 : r_fine / 2, d2) < off;
+    certain = Wide128::product(NarrowFixed<N> ? r_fine * 8 : r_fine / 2, d2) < off;
     return inside;
 }
 
@@ -374,7 +374,7 @@ void aim_at_the_edge(Check& check, int64_t num, int64_t den, int64_t steps)
         const Sphere<N> s = M::sphere(M::point(centre), num, den);
         Length away = number<Length>(num, den);
         const int64_t beside = random.in(-steps, steps);
-        away = away + number<Length>(beside, int64_t{1} << (IsNarrow<N> ? 10 : N::is_fixed ? 24 : 14));
+        away = away + number<Length>(beside, int64_t{1} << (NarrowFixed<N> ? 10 : N::is_fixed ? 24 : 14));
         const Point<N> foot = s.centre + along<N>(away, n);
         const Ray<N> ray = M::ray(foot - along<N>(number<Length>(N::is_fixed ? 55 : 5), d), d);
         bool certain = beside > 8 || beside < -8, expected = beside < 0;
@@ -393,7 +393,7 @@ QRAY_CASE(SphereSeenFromAnywhereBesideItsEdge) { aim_at_the_edge<N>(check, 1, 1,
 // In q16 a tenth of a pixel: as small as half a hundred steps.
 QRAY_CASE(SmallSphereSeenFromAnywhereBesideItsEdge)
 {
-    aim_at_the_edge<N>(check, IsNarrow<N> ? 50 : 5, 1000, IsNarrow<N> ? 40 : N::is_fixed ? 6 : 24);
+    aim_at_the_edge<N>(check, NarrowFixed<N> ? 50 : 5, 1000, NarrowFixed<N> ? 40 : N::is_fixed ? 6 : 24);
 }
 
 QRAY_CASE(SphereSeenFromItsCentreIsItsRadiusAway)
@@ -424,10 +424,10 @@ QRAY_CASE(SphereBehindIsNotMet)
 QRAY_CASE(ConcentricSpheresAMillionthApartAreMetInOrder)
 {
     QRAY_NAMES;
-    const int64_t thin = IsNarrow<N> ? 64 : 1 << 20;
+    const int64_t thin = NarrowFixed<N> ? 64 : 1 << 20;
     const Point<N> centre = M::point({3, 4, 5});
     const Sphere<N> inner = M::sphere(centre, 1), outer = M::sphere(centre, thin + 1, thin);
-    const int64_t far = N::is_fixed && !IsNarrow<N> ? 50 : 2;
+    const int64_t far = WideFixed<N> ? 50 : 2;
     for (const Exact& e : directions)
         for (int beside = 0; beside < 4; beside++) {
             const Triple aside = axes[beside % 3] * (e.over * (beside > 0));
@@ -444,7 +444,7 @@ QRAY_CASE(ConcentricSpheresAMillionthApartAreMetInOrder)
 QRAY_CASE(ShellOfAMillionthIsCrossedFaceByFace)
 {
     QRAY_NAMES;
-    const int64_t thin = IsNarrow<N> ? 64 : 1 << 20;
+    const int64_t thin = NarrowFixed<N> ? 64 : 1 << 20;
     const Tag tag = make_tag(1, 0);
     const Sphere<N> inner = M::sphere(M::point({0, 0, 0}), 1);
     const Sphere<N> outer = M::sphere(M::point({0, 0, 0}), thin + 1, thin, tag);
@@ -463,7 +463,7 @@ QRAY_CASE(SphereLeftAlmostAlongItsTangentIsNotMetAgain)
 {
     QRAY_NAMES;
     const Tag tag = make_tag(3, 0);
-    const int64_t flat = IsNarrow<N> ? 1 << 14 : 1 << 17;
+    const int64_t flat = NarrowFixed<N> ? 1 << 14 : 1 << 17;
     for (int i = 0; i < 3; i++)
         for (int64_t sign : List{-1, 1}) {
             const Sphere<N> s = M::sphere(M::point({9, -5, 2}), 2, 1, tag);
@@ -473,7 +473,7 @@ QRAY_CASE(SphereLeftAlmostAlongItsTangentIsNotMetAgain)
             QRAY_HOLDS(!meets(check, s, ray, t));
             ray.origin = step_off<N>(ray.origin, g, true);
             QRAY_HOLDS(!meets(check, s, ray, t));
-            if (IsNarrow<N>) // whose directions are longer or shorter than 1 by more than that
+            if (NarrowFixed<N>) // whose directions are longer or shorter than 1 by more than that
                 continue;
             ray.from = {Tag::none};
             QRAY_HOLDS(!meets(check, s, ray, t));
@@ -519,8 +519,8 @@ QRAY_CASE(PlaneAtASlopeOfABillionthIsMetWhereItShouldBe)
 {
     QRAY_NAMES;
     const Disc<N> s = M::disc({0, 0, 0}, axes[1], 100);
-    const int bits = IsNarrow<N> ? 14 : 30;
-    const Length slack = IsNarrow<N> ? number<Length>(5, 1024) : Length{}; // a quotient of 14 bits
+    const int bits = NarrowFixed<N> ? 14 : 30;
+    const Length slack = NarrowFixed<N> ? number<Length>(5, 1024) : Length{}; // a quotient of 14 bits
     for (int64_t side : List{-1, 1}) {
         Ray<N> ray = M::ray(M::point({-60, side, 0}), M::direction({1, 0, 0}));
         ray.direction.y = number<Unit>(-side, int64_t{1} << bits);
@@ -699,7 +699,7 @@ QRAY_CASE(RayThroughACornerOfSixTrianglesHasOneOwner)
 QRAY_CASE(SliverOf50ByAHundredthousandthIsExact)
 {
     constexpr Flat corners[] = {{-25 * 1024, 0}, {25 * 1024, 0}, {7 * 1024, 168}};
-    const int64_t over = int64_t{1} << (IsNarrow<N> ? 10 : 24);
+    const int64_t over = int64_t{1} << (NarrowFixed<N> ? 10 : 24);
     compare_with_integers<N>(check, corners, 3, 1024, over, figure_rays, {-25600, -6}, {25599, 173});
 }
 
@@ -707,7 +707,7 @@ QRAY_CASE(SliverOf50ByAHundredthousandthIsExact)
 QRAY_CASE(TriangleOfAFiveThousandthIsExact)
 {
     constexpr Flat corners[] = {{0, 0}, {3355, 17}, {1211, 2903}};
-    const int64_t over = int64_t{1} << (IsNarrow<N> ? 10 : 24);
+    const int64_t over = int64_t{1} << (NarrowFixed<N> ? 10 : 24);
     compare_with_integers<N>(check, corners, 3, over, over, figure_rays, {-100, -100}, {3500, 3000});
     if constexpr (N::is_fixed) {
         const int64_t far = 30 * over;
@@ -719,7 +719,7 @@ QRAY_CASE(TriangleOfAFiveThousandthIsExact)
 
 QRAY_CASE(TriangleAsLargeAsTheWorldIsExact)
 {
-    constexpr int64_t n = IsNarrow<N> ? 1024 : 4096;
+    constexpr int64_t n = NarrowFixed<N> ? 1024 : 4096;
     constexpr Flat corners[] = {{-62 * n, -62 * n + 1}, {62 * n, -61 * n}, {5, 62 * n - 3}};
     compare_with_integers<N>(check, corners, 3, n, n, figure_rays, {-62 * n, -62 * n}, {62 * n, 62 * n});
 }
@@ -727,7 +727,7 @@ QRAY_CASE(TriangleAsLargeAsTheWorldIsExact)
 // A star between two squares on their corners.
 QRAY_CASE(ConcavePolygonOf144CornersIsExact)
 {
-    constexpr int64_t n = IsNarrow<N> ? 1024 : 4096;
+    constexpr int64_t n = NarrowFixed<N> ? 1024 : 4096;
     Flat star[144];
     for (int i = 0; i < 144; i++) {
         const int64_t reach = (i % 2 == 0 ? 40 : 17) * n, along = reach * (i % 36) / 36;
@@ -772,8 +772,8 @@ QRAY_CASE(PolygonAlmostEdgeOnIsMetWithinItself)
     Figure<N> s(corners, 4, 1, 1);
     for (int64_t i = -100; i <= 100; i++) {
         Ray<N> ray = M::ray(M::point({-20, 1, 0}), M::direction({1, 0, 0}));
-        ray.origin.z = number<Length>(i, int64_t{1} << (IsNarrow<N> ? 10 : 24));
-        ray.direction.z = number<Unit>(i < 0 ? 1 : -1, int64_t{1} << (IsNarrow<N> ? 14 : 30));
+        ray.origin.z = number<Length>(i, int64_t{1} << (NarrowFixed<N> ? 10 : 24));
+        ray.direction.z = number<Unit>(i < 0 ? 1 : -1, int64_t{1} << (NarrowFixed<N> ? 14 : 30));
         QRAY_HOLDS(!s.hit(ray, t) || (t >= number<Length>(16) && t <= number<Length>(24)));
     }
 }
@@ -797,7 +797,7 @@ QRAY_CASE(CylinderGrazedAFourmillionthInsideAndOutside)
 {
     QRAY_NAMES;
     const Cone<N> s = M::cylinder(2, 3);
-    const Length off = power_of_two<Length>(IsNarrow<N> ? -8 : -22), one = number<Length>(1);
+    const Length off = power_of_two<Length>(NarrowFixed<N> ? -8 : -22), one = number<Length>(1);
     for (int64_t z : List{-2, 0, 1})
         for (int64_t sign : List{-1, 1})
             for (bool inside : List{true, false}) {
@@ -832,8 +832,8 @@ QRAY_CASE(ConeEndsAtItsApex)
 {
     QRAY_NAMES;
     const Cone<N> s = cone345<N>();
-    const Length below = power_of_two<Length>(IsNarrow<N> ? -5 : -10);
-    const Length above = power_of_two<Length>(IsNarrow<N> ? -5 : -16);
+    const Length below = power_of_two<Length>(NarrowFixed<N> ? -5 : -10);
+    const Length above = power_of_two<Length>(NarrowFixed<N> ? -5 : -16);
     for (const Triple& d : List{Triple{5, 0, 0}, Triple{0, -5, 0}, Triple{3, 4, 0}, Triple{-4, 3, 0}}) {
         Ray<N> ray = M::ray(M::point(Triple{0, 0, 4} - d), M::direction(d, 5));
         ray.origin.z = number<Length>(4) - below;
@@ -934,7 +934,7 @@ QRAY_CASE(RefractionAMillionthOffTheCriticalAngle)
     QRAY_NAMES;
     constexpr int64_t over = 1000000000;
     int64_t sines[2] = {799999400, 800000600}, cosines[2] = {600000800, 599999200};
-    if (IsNarrow<N>) {
+    if (NarrowFixed<N>) {
         sines[0] = 790527720, cosines[0] = 612426250;
         sines[1] = 809276960, cosines[1] = 587427270;
     } else if (sizeof(Unit) == 4 && !N::is_fixed) {
@@ -976,7 +976,7 @@ QRAY_CASE(ThousandBouncesKeepTheDirectionUnit)
     Direction<N> d = M::direction({1, 2, 2}, 3);
     const auto one = N::one * N::one;
     const int64_t float_has = sizeof(Unit) == 4 && !N::is_fixed ? 20 : 2;
-    const Unit little = IsNarrow<N> ? number<Unit>(3, 1 << 14) : number<Unit>(float_has, 10000000);
+    const Unit little = NarrowFixed<N> ? number<Unit>(3, 1 << 14) : number<Unit>(float_has, 10000000);
     const auto most = N::one * little;
     for (int i = 0; i < 1000; i++) {
         Direction<N> n = d;
@@ -999,7 +999,7 @@ QRAY_CASE(ThousandBouncesBetweenTwoBallsKeepTheDirectionUnit)
                                 M::sphere(M::point({5, 0, 0}), 2, 1, tags[1])};
     const auto one = N::one * N::one;
     const int64_t float_has = sizeof(Unit) == 4 && !N::is_fixed ? 20 : 2;
-    const Unit little = IsNarrow<N> ? number<Unit>(5, 1 << 14) : number<Unit>(float_has, 10000000);
+    const Unit little = NarrowFixed<N> ? number<Unit>(5, 1 << 14) : number<Unit>(float_has, 10000000);
     Ray<N> ray = M::ray(M::point({0, 0, 0}), M::direction({1, 0, 0}));
     ray.direction.x = ray.direction.x + number<Unit>(2, int64_t{1} << unit_bits<N>);
     for (int i = 0; i < 1000; i++) {
@@ -1029,7 +1029,7 @@ QRAY_CASE(TextureCellsAMillionAwayAreRight)
     QRAY_NAMES;
     LatticeAxis<N> axis{};
     int cells = 15;
-    if constexpr (IsNarrow<N>) {
+    if constexpr (NarrowFixed<N>) {
         axis.row_x = 1;
         axis.frac = 10;
         cells = 0;
@@ -1042,7 +1042,7 @@ QRAY_CASE(TextureCellsAMillionAwayAreRight)
     hide(axis);
     constexpr int most = 1 << 20;
     for (int64_t cell : List{0, 1, -1, 2, -2, 3, -7, 1000, -1000, 65535, -65536, most, -most, most - 1}) {
-        if (IsNarrow<N> && (cell > 62 || cell < -62))
+        if (NarrowFixed<N> && (cell > 62 || cell < -62))
             continue;
         Point<N> q{number<Length>(cell, int64_t{1} << cells), Length{}, Length{}};
         hide(q);
@@ -1124,7 +1124,7 @@ QRAY_CASE(NormaliseOfZeroIsRefused)
 QRAY_CASE(RootsOfZeroAndOfTheLargestArea)
 {
     QRAY_NAMES;
-    for (int64_t root : List{0, 1, 2, 11, 45, IsNarrow<N> ? 45 : 120}) { // q16 squares no more than 46340 steps
+    for (int64_t root : List{0, 1, 2, 11, 45, NarrowFixed<N> ? 45 : 120}) { // q16 squares no more than 46340 steps
         Length r = number<Length>(root);
         hide(r);
         QRAY_HOLDS(N::sqrt(r * r) == r);
@@ -1154,7 +1154,7 @@ QRAY_CASE(PowersNearOneAndOfZero)
         QRAY_HOLDS(power(number<Unit>(x, 1000), 0, false) == N::one);
     QRAY_HOLDS(power(N::one, 1000000, false) == N::one);
     QRAY_HOLDS(power(N::one, 1000000, true) == N::one);
-    if constexpr (!IsNarrow<N>) { // (1 - 2^-16)^10000 = 0.858482438578...
+    if constexpr (!NarrowFixed<N>) { // (1 - 2^-16)^10000 = 0.858482438578...
         const Unit found = power(N::one - power_of_two<Unit>(-16), 10000, false);
         const Unit expected = number<Unit>(858482439, 1000000000);
         const Unit fixed_little = power_of_two<Unit>(-28) + power_of_two<Unit>(-30);

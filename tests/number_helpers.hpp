@@ -27,7 +27,7 @@ struct SystemNames {
         else if constexpr (std::is_same_v<N, Double>)
             return "double";
         else
-            return IsNarrow<N> ? "q16" : "q32";
+            return NarrowFixed<N> ? "q16" : "q32";
     }
 };
 
@@ -123,7 +123,7 @@ struct make {
     }
     static typename N::Scale inverse(typename N::Length r)
     {
-        if constexpr (IsNarrow<N>) { // 16 bits
+        if constexpr (NarrowFixed<N>) { // 16 bits
             const int zeros = __builtin_clz(static_cast<uint32_t>(r.raw)), shift = zeros > 17 ? zeros - 17 : 0;
             return {static_cast<int32_t>(std::lrint(std::ldexp(1, 29 - shift) / r.raw)), shift};
         } else if constexpr (N::is_fixed) {

@@ -47,7 +47,7 @@ World odd_world(Random& random)
 template <class N>
 double margin()
 {
-    return IsNarrow<N> ? 0.03 : 1e-4;
+    return NarrowFixed<N> ? 0.03 : 1e-4;
 }
 
 TYPED_TEST(EyeSurfaces, BallShowsItsInside)
@@ -165,7 +165,7 @@ TYPED_TEST(EyeSurfaces, OtherSurfacesAreSeenThroughIt)
 TYPED_TEST(EyeSurfaces, NearASurfaceIsNotOnIt)
 {
     using N = TypeParam;
-    const double off = IsNarrow<N> ? 0.02 : std::is_same_v<N, Float> ? 1e-3 : 1e-5;
+    const double off = NarrowFixed<N> ? 0.02 : std::is_same_v<N, Float> ? 1e-3 : 1e-5;
     for (const char* object : {"s 0 0 0 1", "disc 0 1 0 0 1 0 2", "plane 0 1 0 0 1 0", "p 3 -2 1 -2 2 1 -2 0 1 3",
                                "c 0 0 -2 1 0 0 2 1", "pp 3 -2 1 -2 0 1 0 2 1 -2 0 1 0 0 1 3 0 1 0"})
         for (double side : {1.0, -1.0}) {

@@ -43,7 +43,7 @@ TYPED_TEST(HardCases, RefractionAMillionthOffTheCriticalAngle)
     using N = TypeParam;
     using M = make<N>;
     Random random(91);
-    const double near = IsNarrow<N> ? 0x1p14 * 1e-6 : 1e-6;
+    const double near = NarrowFixed<N> ? 0x1p14 * 1e-6 : 1e-6;
     for (double ior : {1.5, 1.25, 2.4, 1.0625}) {
         const double index = value(M::eta(ior)), critical = std::asin(1 / index);
         for (int i = 0; i < 500; i++) {
@@ -108,7 +108,7 @@ TYPED_TEST(HardCases, SlabLetsOutWhatCameInParallel)
                 Direction<N> inside{}, out{};
                 ASSERT_TRUE(bend<N>(d, stored_n, 1 / ior, inside));
                 const bool lets_out = bend<N>(inside, stored_n, ior, out);
-                if (IsNarrow<N> && !lets_out) { // k, here cos^2, may be below its own error
+                if (NarrowFixed<N> && !lets_out) { // k, here cos^2, may be below its own error
                     EXPECT_LE(std::cos(angle) * std::cos(angle), 2 * (eta_error + 4 * M::unit_ulp() * ior)) << ior << " " << degrees;
                     continue;
                 }
@@ -198,7 +198,7 @@ TYPED_TEST(HardCases, ThousandBouncesKeepTheDirectionUnit)
             worst = std::fmax(worst, std::fabs(length(value(d)) - 1));
         }
         // In q16 what one bounce may leave: half an ulp in each component and in the correction.
-        const double most = IsNarrow<N> ? (std::sqrt(3) + 1) / 2 * M::unit_ulp() : N::is_fixed ? 1e-8 : 8 * M::unit_ulp();
+        const double most = NarrowFixed<N> ? (std::sqrt(3) + 1) / 2 * M::unit_ulp() : N::is_fixed ? 1e-8 : 8 * M::unit_ulp();
         EXPECT_LE(worst, most);
     }
 }
@@ -275,8 +275,8 @@ TYPED_TEST(HardCases, OccluderBeyondTheLightDoesNotBlockIt)
     using N = TypeParam;
     // From the floor to the light at height 1 below a lid: one that lies at it, one 1e-4 above it, one below; 0.02 in
     // q16, which holds 4 ulp for nothing between a light and what it touches, here 0.016.
-    const std::string below = IsNarrow<N> ? "0.98" : "0.9999";
-    for (const std::string& lid : {std::string("1"), std::string(IsNarrow<N> ? "1.02" : "1.0001"), below}) {
+    const std::string below = NarrowFixed<N> ? "0.98" : "0.9999";
+    for (const std::string& lid : {std::string("1"), std::string(NarrowFixed<N> ? "1.02" : "1.0001"), below}) {
         ASSERT_TRUE(loaded<N>("v from 0 0.5 2 at 0 0 0 up 0 1 0 angle 30 hither 1 resolution 9 9\n b 0 0 0\n ambientlight 0 0 0\n l 0 1 0 1 1 1\n"
                               "material\n p 4 -9 0 9 9 0 9 9 0 -9 -9 0 -9\n disc 0 " + lid + " 0 0 1 0 5\n"));
         EXPECT_EQ(light_at<N>(4, 6).x > 0.5, lid != below) << lid;
@@ -391,7 +391,7 @@ TYPED_TEST(HardCases, PowersNearOneAndOfZero)
 {
     using N = TypeParam;
     using M = make<N>;
-    if constexpr (IsNarrow<N>) { // the power of what lies within half an ulp of x
+    if constexpr (NarrowFixed<N>) { // the power of what lies within half an ulp of x
         const double ulp = M::unit_ulp(), p = value(N::power(M::unit(1 - ulp), M::shine(10000)));
         EXPECT_GE(p, std::pow(1 - 1.5 * ulp, 10000.0));
         EXPECT_LE(p, std::pow(1 - 0.5 * ulp, 10000.0));

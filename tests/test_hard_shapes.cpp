@@ -283,7 +283,7 @@ TYPED_TEST(HardShapes, ConeGrazedBesideItsWall)
         const double turn = random.uniform(0, 7), z = random.uniform(-0.9, 0.9);
         const Vec3 out{std::cos(turn), std::sin(turn), 0}, side{-out.y, out.x, 0};
         const Vec3 d = unit(side + unit(out * 0.5 + Vec3{0, 0, 1}) * random.uniform(-1, 1));
-        const double margin = std::is_same_v<N, Float> ? 1e-4 : 1e-6 * (IsNarrow<N> ? 2 * grain<N> : 1);
+        const double margin = std::is_same_v<N, Float> ? 1e-4 : 1e-6 * (NarrowFixed<N> ? 2 * grain<N> : 1);
         const Vec3 n = unit(out - Vec3{0, 0, 0.5});
         const auto ray = M::ray(out * (1 + z / 2) + Vec3{0, 0, z} + n * (margin * random.uniform(-1, 1)) - d * 5, d);
         Quad expected = 0;
@@ -339,7 +339,7 @@ TYPED_TEST(HardShapes, ConeHitThroughItsApex)
             EXPECT_NEAR(value(t), 5, 64 * std::sqrt(resolution<N>()) * 0.01 + 16 * resolution<N>());
         }
         // A little below the apex it is as wide as it takes, and above it there is nothing.
-        const double near = IsNarrow<N> ? 0x1p-5 : 0x1p-10, above = IsNarrow<N> ? 0x1p-5 : 0x1p-16;
+        const double near = NarrowFixed<N> ? 0x1p-5 : 0x1p-10, above = NarrowFixed<N> ? 0x1p-5 : 0x1p-16;
         EXPECT_TRUE(s.hit(M::ray({-5 * std::cos(turn), -5 * std::sin(turn), 2 - near}, {std::cos(turn), std::sin(turn), 0}), limit, t));
         EXPECT_FALSE(s.hit(M::ray({-5 * std::cos(turn), -5 * std::sin(turn), 2 + above}, {std::cos(turn), std::sin(turn), 0}), limit, t));
     }

@@ -26,7 +26,7 @@ TYPED_TEST_SUITE(HostileTest, qray::test::NumberSystems, qray::test::SystemNames
 template <class N, template <class> class Trial>
 void expect_steady(const Allowed& allowed)
 {
-    constexpr bool is_q32 = std::is_same_v<N, qray::q32>, is_q16 = qray::IsNarrow<N>;
+    constexpr bool is_q32 = std::is_same_v<N, qray::q32>, is_q16 = qray::NarrowFixed<N>;
     rows_of<N, Trial>({}, rays, [&allowed](const Row& row) {
         SCOPED_TRACE(regime_names[row.regime]);
         const Tally& t = row.tally;

@@ -643,7 +643,7 @@ TYPED_TEST(ImageTest, OfCoincidentSurfacesTheFirstInTheFileWins)
                  {"plane 0 0 1 0 0 1\n", "disc 0 0 1 0 0 1 2\n"},
                  {"p 3 -2 -2 1 3 -2 1 0 3 1\n", "pp 3 -2 -2 1 0 0 1 3 -2 1 0 0 1 0 3 1 0 0 1\n"}};
     for (const auto& pair : pairs) {
-        if (IsNarrow<N> && pair.a[0] == 'd' && pair.b[0] == 'p') // their distances, of 14 bits, are computed in two ways
+        if (NarrowFixed<N> && pair.a[0] == 'd' && pair.b[0] == 'p') // their distances, of 14 bits, are computed in two ways
             continue;
         const std::string head = view("3 3", "10") + "ambientlight 1 1 1\n b 0 0 1\n";
         ASSERT_TRUE(loaded<N>(head + red + pair.a + green + pair.b));

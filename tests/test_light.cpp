@@ -96,7 +96,7 @@ TYPED_TEST(LightTest, DistanceIsClampedNotWrapped)
 {
     using N = TypeParam;
     using M = make<N>;
-    const double reach = IsNarrow<N> ? 62 / std::sqrt(3) : 60;
+    const double reach = NarrowFixed<N> ? 62 / std::sqrt(3) : 60;
     for (double side : {-1.0, 1.0}) {
         const auto light = make_light<N>({reach, side * reach, reach}, 0);
         for (double k : {0.25, 0.5, 0.75}) { // 130, 156 and 182 away

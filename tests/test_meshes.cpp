@@ -76,7 +76,7 @@ TYPED_TEST(MeshTest, SmallAndFarFromTheOrigin)
     Random random(4);
     Mesh m = turned_body();
     const Turn turn(random);
-    const double size = qray::IsNarrow<TypeParam> ? 0.5 : 0.01;
+    const double size = qray::NarrowFixed<TypeParam> ? 0.5 : 0.01;
     m.move([&](const Double3& c) { return turn(c) * size + Double3{31, -32, 30}; });
     m.room = size / 10;
     expect_watertight<TypeParam>(m, 2000);
@@ -99,7 +99,7 @@ TYPED_TEST(MeshTest, Needles)
     Random random(6);
     Mesh m = displaced_sphere(random, 200, 10, 1);
     const Turn turn(random);
-    const double thick = qray::IsNarrow<TypeParam> ? 0.2 : 0.02;
+    const double thick = qray::NarrowFixed<TypeParam> ? 0.2 : 0.02;
     m.move([&](const Double3& c) { return turn({c.x * 20, c.y * thick, c.z * 20}); });
     m.room = thick / 10;
     expect_watertight<TypeParam>(m, 3000);
@@ -145,7 +145,7 @@ TYPED_TEST(MeshTest, NothingGetsOut)
             continue;
         const MeshTally t = MeshBench<TypeParam>(*m).bounce(19, bounces);
         EXPECT_EQ(t.bounces, bounces);
-        EXPECT_LE(t.escapes, qray::IsNarrow<TypeParam> ? 1 + bounces / 20000 : 0);
+        EXPECT_LE(t.escapes, qray::NarrowFixed<TypeParam> ? 1 + bounces / 20000 : 0);
     }
 }
 

@@ -70,7 +70,7 @@ size_t differing(const Picture& a, const Picture& b, int levels)
 template <class N>
 size_t few_pixels()
 {
-    return std::is_same_v<N, Double> ? 0 : std::is_same_v<N, Float> || IsNarrow<N> ? 24 : 4;
+    return std::is_same_v<N, Double> ? 0 : std::is_same_v<N, Float> || NarrowFixed<N> ? 24 : 4;
 }
 
 template <class N>
@@ -115,7 +115,7 @@ TYPED_TEST(Metamorphic, Mirrored)
 // Pixels in which two surfaces are met at the same t, so that their order decides: one in five thousand in q16, whose steps
 // of t are a millimetre in a metre.
 template <class N>
-constexpr size_t ties = IsNarrow<N> ? 2 : 0;
+constexpr size_t ties = NarrowFixed<N> ? 2 : 0;
 
 TYPED_TEST(Metamorphic, ObjectsInTheOtherOrder)
 {
@@ -297,7 +297,7 @@ void checkered_horizon(SceneText& s)
 // A floor to 1000 leaves q16 an ulp of a 64th of a square: its floor ends at 60.
 TYPED_TEST(Metamorphic, CheckeredFloorToTheHorizon)
 {
-    expect_clean<TypeParam>(checkered_horizon<IsNarrow<TypeParam> ? 60 : 1000>, 2);
+    expect_clean<TypeParam>(checkered_horizon<NarrowFixed<TypeParam> ? 60 : 1000>, 2);
 }
 
 // Every object twice, in the same place.

@@ -41,7 +41,7 @@ TYPED_TEST(NarrowTest, NoBallThatIsMetIsTurnedAway)
         const auto v = real(centre) - real(ray.origin), d = real(ray.direction);
         const Real along = dot(v, d), rho = length(cross(v, d));
         bool meets = rho <= value(radius) && (along >= 0 || length(v) <= value(radius));
-        if constexpr (IsNarrow<N>) { // the exact test is no finer, and is what counts
+        if constexpr (NarrowFixed<N>) { // the exact test is no finer, and is what counts
             typename N::Length t{};
             meets = SphereOf<N>(value(centre), value(radius), make_tag(0, 0), 0).hit(ray, N::length_max, t);
         }

@@ -1,4 +1,6 @@
-#include <qray/number/number.hpp>
+#include <qray/number/floating.hpp>
+#include <qray/number/q16.hpp>
+#include <qray/number/q32.hpp>
 
 #include "number_helpers.hpp"
 
@@ -21,7 +23,7 @@ TYPED_TEST(NumberTest, ConstantsStandForTheirNumbers)
     EXPECT_TRUE(N::ulp > N::length_zero);
     // The tracer's distances: 2^7 in fixed point, the whole range in floating point; in q16 twice the world, and t d
     // fits 32 bits even for a d that is longer than 1 by 2^-11, with what rounding it adds.
-    if constexpr (IsNarrow<N>) {
+    if constexpr (NarrowFixed<N>) {
         EXPECT_GT(value(N::length_max), 2 * 62.5);
         EXPECT_LE(int64_t{N::length_max.raw} * (N::one.raw + (N::one.raw >> 11)) + N::one.raw / 2, INT32_MAX);
     } else if constexpr (N::is_fixed)
@@ -76,7 +78,7 @@ TYPED_TEST(NumberTest, SquareRootsAreNearest)
 template <class N>
 double quotient_tolerance(double exact)
 {
-    return IsNarrow<N> ? std::fabs(exact) * 0x1p-14 + make<N>::length_ulp() / 2 : 2 * make<N>::length_ulp(exact);
+    return NarrowFixed<N> ? std::fabs(exact) * 0x1p-14 + make<N>::length_ulp() / 2 : 2 * make<N>::length_ulp(exact);
 }
 
 TYPED_TEST(NumberTest, QuotientIsWithinItsBound)
@@ -230,7 +232,7 @@ TYPED_TEST(NumberTest, BentScalesByARatioOfIndicesAndIsClampedAboveOne)
 template <class N>
 auto area_of(typename N::Length a, typename N::Length b)
 {
-    if constexpr (IsNarrow<N>)
+    if constexpr (NarrowFixed<N>)
         return Wide<N::Area::frac, 32>{int64_t{a.raw} * b.raw};
     else
         return a * b;
@@ -298,7 +300,7 @@ TYPED_TEST(NumberTest, NormaliseWorksForLengthsOfEverySize)
 {
     using N = TypeParam;
     using M = make<N>;
-    if constexpr (N::is_fixed && !IsNarrow<N>) {
+    if constexpr (WideFixed<N>) {
         Random random(17);
         double worst = 0;
         for (int i = 0; i < 50000; i++) {
@@ -327,7 +329,7 @@ TYPED_TEST(NumberTest, NormaliseKeepsTheSignAtTheEndsOfItsRange)
 {
     using N = TypeParam;
     using M = make<N>;
-    if constexpr (N::is_fixed && !IsNarrow<N>) {
+    if constexpr (WideFixed<N>) {
         typename N::Unit x{}, y{}, z{};
         for (int32_t v : {INT32_MIN, INT32_MIN + 1, -0x40000001, -0x40000000, -1, 1, 0x3fffffff, 0x40000000, INT32_MAX}) {
             ASSERT_TRUE(N::normalise(0, v, 0, x, y, z));
@@ -378,7 +380,7 @@ template <class N>
 double power_tolerance(double x, double exponent)
 {
     const double exact = std::pow(x, exponent), ulp = make<N>::unit_ulp();
-    if constexpr (IsNarrow<N>)
+    if constexpr (NarrowFixed<N>)
         return ulp + std::fmax(std::pow(std::fmin(1, x + ulp / 2), exponent) - exact, exact - std::pow(std::fmax(0, x - ulp / 2), exponent));
     else if constexpr (N::is_fixed)
         return 0x1p-28;
@@ -428,7 +430,7 @@ TYPED_TEST(NumberTest, SaturatingOperationsAreSumsWithinRange)
     using M = make<N>;
     EXPECT_EQ(value(N::saturating_sub(M::length(3), M::length(5.5))), -2.5);
     EXPECT_EQ(value(N::saturating_add(M::colour(0.5), M::colour(1.25))), 1.75);
-    if constexpr (IsNarrow<N>) { // differences fit; light is clamped where it is white by far
+    if constexpr (NarrowFixed<N>) { // differences fit; light is clamped where it is white by far
         using Colour = typename N::Colour;
         constexpr Colour most{int32_t{1} << 24};
         EXPECT_GT(value(most), 1000);

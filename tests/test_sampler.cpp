@@ -60,7 +60,7 @@ TYPED_TEST(SamplerTest, RoundDecimalsThatEndOnAHalfGoUp)
         double v;
         int byte;
     } halves[] = {{0.1, 26}, {0.3, 77}, {0.7, 179}, {0.9, 230}, {0.5, 128}};
-    if constexpr (IsNarrow<N>)
+    if constexpr (NarrowFixed<N>)
         EXPECT_EQ(Sample<N>::byte(Sample<N>::clamped(make<N>::colour(0.5), 0)), 128); // of the five it holds this one
     else if constexpr (N::is_fixed)
         for (const auto& h : halves)

@@ -85,12 +85,12 @@ TYPED_TEST(TextureTest, CheckerIsCleanInALatticePlane)
     using M = make<N>;
     // On y = 0, 1 and -3, and as far from them as a hit may lie, it is a plane board. In q16 that is an ulp, of 1/1024
     // itself, and the builder gives the texture an epsilon of half as much again.
-    const Checker<N> texture{n<N>(), make_lattice<N>({}, (IsNarrow<N> ? 1.5 : 1.0) / 1024)};
+    const Checker<N> texture{n<N>(), make_lattice<N>({}, (NarrowFixed<N> ? 1.5 : 1.0) / 1024)};
     for (double y : {0.0, 1.0, -3.0})
         for (double ulps : {-2.0, -1.0, 0.0, 1.0, 2.0})
             for (double x : {-1.5, -0.5, 0.5, 1.5})
                 for (double z : {-0.5, 0.5}) {
-                    const double off = IsNarrow<N> ? ulps / 2 : ulps;
+                    const double off = NarrowFixed<N> ? ulps / 2 : ulps;
                     const auto q = M::point(x, y + off * M::length_ulp(4), z);
                     const bool odd = is_odd(Real(std::floor(x) + y + std::floor(z)));
                     EXPECT_EQ(value(texture(m<N>(), q)), odd ? n_colour : m_colour) << x << " " << y << " " << z;

@@ -182,7 +182,7 @@ TYPED_TEST(TraceTest, WeightBelowTheCutoffIsNotTraced)
     using N = TypeParam;
     scene::Settings settings;
     settings.depth = 3;
-    for (double cutoff : {0.25, IsNarrow<N> ? 0.25 + 0x1p-14 : 0.2500001}) {
+    for (double cutoff : {0.25, NarrowFixed<N> ? 0.25 + 0x1p-14 : 0.2500001}) {
         settings.cutoff = cutoff;
         ASSERT_TRUE(loaded<N>("v from 0 0 1 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 1 1\n b 1 1 1\n"
                               "ambientlight 0 0 0\n material mirror 0 transmit 0.25 ior 1\n disc 0 0 0 0 0 1 9\n", settings));

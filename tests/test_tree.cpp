@@ -97,7 +97,7 @@ TYPED_TEST(TreeTest, HitsAreTheSameAmongTinyObjects)
     std::string text = "v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3\n";
     for (int i = 0; i < 400; i++) {
         const Vec3 p = random.point(8);
-        text += "s" + numbers({p.x, p.y, p.z, IsNarrow<N> ? 0.05 : 0.001}) + "\n";
+        text += "s" + numbers({p.x, p.y, p.z, NarrowFixed<N> ? 0.05 : 0.001}) + "\n";
     }
     ASSERT_TRUE(loaded<N>(text));
     const auto with = storage<N>().template view<shapes(true)>();
@@ -106,7 +106,7 @@ TYPED_TEST(TreeTest, HitsAreTheSameAmongTinyObjects)
         const Vec3 from = random.point(30);
         Hit<N> hit{};
         ASSERT_TRUE(nearest(with, make<N>::ray(from, centre - from), hit)) << i;
-        EXPECT_LE(value(hit.t), length(centre - from) + (IsNarrow<N> ? 0.05 : 1e-3));
+        EXPECT_LE(value(hit.t), length(centre - from) + (NarrowFixed<N> ? 0.05 : 1e-3));
     }
 }
 

@@ -42,9 +42,9 @@ Vec<Real> texture_point(const Placing& at, const Point<N>& q)
 template <class N>
 double place_tolerance(const Placing& at, double q_reach)
 {
-    const double reach = (IsNarrow<N> ? 62.5 : q_reach) / at.scale / at.size + 1;
+    const double reach = (NarrowFixed<N> ? 62.5 : q_reach) / at.scale / at.size + 1;
     const double with_origin = reach + length(at.origin) / at.size;
-    return IsNarrow<N> ? reach * 0x1p-14 : N::is_fixed ? with_origin * 0x1p-29 : with_origin * 6 * value(N::ulp) / 64;
+    return NarrowFixed<N> ? reach * 0x1p-14 : N::is_fixed ? with_origin * 0x1p-29 : with_origin * 6 * value(N::ulp) / 64;
 }
 
 // Distance to the nearest integer.

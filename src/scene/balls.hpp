@@ -131,7 +131,7 @@ private:
     }
 
     // By how much a hit may lie outside its shape: see tree.hpp, q16.hpp.
-    static constexpr double slack = IsNarrow<N> ? 1.0 / 64 : 1e-4;
+    static constexpr double slack = NarrowFixed<N> ? 1.0 / 64 : 1e-4;
 
     // One level over `count` balls; returns its number of blocks.
     template <class BallOf>

@@ -50,7 +50,7 @@ public:
 
 private:
     // How far a point may lie from the origin, and what block-scaled radii may be: see cone.hpp, q16.hpp.
-    static constexpr double world = 62, cone_world = IsNarrow<N> ? 18 : 40, sphere_world = 31.9;
+    static constexpr double world = 62, cone_world = NarrowFixed<N> ? 18 : 40, sphere_world = 31.9;
 
     static constexpr bool is_float = !N::is_fixed && sizeof(typename N::Length) == 4;
 
@@ -78,7 +78,7 @@ private:
     // Has a narrow number system enough steps left where a plane takes most of them, and for the cells of textures?
     bool fine_enough([[maybe_unused]] Error& error) const
     {
-        if constexpr (IsNarrow<N>) {
+        if constexpr (NarrowFixed<N>) {
             const double step = ldexp(1 / frame.scale, -N::Length::frac);
             if (frame.radius < Limits::narrow_radius * step) {
                 snprintf(error.text, sizeof error.text,
@@ -136,7 +136,7 @@ private:
         const double step = f.scale * 64;
         f.origin = {round(f.centre.x * step) / step, round(f.centre.y * step) / step, round(f.centre.z * step) / step};
         // At most half an ulp from there, so that the eye, where all rays start, is not rounded.
-        if constexpr (N::is_fixed && !IsNarrow<N>) {
+        if constexpr (WideFixed<N>) {
             const auto moved = [&f](double origin, double eye) {
                 const double ulp = ldexp(1 / f.scale, -N::Length::frac), at = (eye - origin) / ulp;
                 return origin + (at - rint(at)) * ulp;
@@ -153,7 +153,7 @@ private:
     // more of its reject: see narrow.hpp.
     typename N::Length bound(double r) const
     {
-        return Convert<N>::length(r * frame.scale * (1 + 1e-6) + (IsNarrow<N> ? 6.0 / 1024 : 2e-6));
+        return Convert<N>::length(r * frame.scale * (1 + 1e-6) + (NarrowFixed<N> ? 6.0 / 1024 : 2e-6));
     }
 
     void add(const Object& o, bool patches)
@@ -180,7 +180,7 @@ private:
     {
         int fine = 0;
         if constexpr (N::is_fixed)
-            while (fine < 10 && ldexp(size * frame.scale + (IsNarrow<N> ? 1.0 / 128 : 1.0 / 16), fine + 1) <= most)
+            while (fine < 10 && ldexp(size * frame.scale + (NarrowFixed<N> ? 1.0 / 128 : 1.0 / 16), fine + 1) <= most)
                 fine++;
         return fine;
     }
@@ -358,7 +358,7 @@ private:
             Vec3d at = frame.point(l.at);
             int shift = 0;
             if constexpr (N::is_fixed)
-                for (; (IsNarrow<N> ? length(at) : largest(at)) > world; at = at * 0.5)
+                for (; (NarrowFixed<N> ? length(at) : largest(at)) > world; at = at * 0.5)
                     shift++;
             // So far away that it is a sun; in float, its square would be infinite.
             if (shift > 30 || (is_float && largest(at) > 0x1p60)) {
@@ -391,7 +391,7 @@ private:
     TextureRef texture(const Texture& t)
     {
         // Not less than a hit may lie off its surface.
-        const double epsilon = IsNarrow<N> ? fmax(1.0 / 1024, ldexp(1.5, -10) / (t.size * frame.scale)) : 1.0 / 1024;
+        const double epsilon = NarrowFixed<N> ? fmax(1.0 / 1024, ldexp(1.5, -10) / (t.size * frame.scale)) : 1.0 / 1024;
         const double k = 1 / t.size;
         const auto n = surface(t.colour);
         const auto axis = [&](const Vec3d& direction, double offset, bool wraps) {
@@ -455,7 +455,7 @@ private:
         const double step = half / (n * height);
         // |w|, |x u| and |y v| at most 2^60: see camera.hpp
         const double most = fmax(1, fmax(half, half * width / height));
-        const double scale = ldexp(1, IsNarrow<N> ? 29 : 60) / most;
+        const double scale = ldexp(1, NarrowFixed<N> ? 29 : 60) / most;
         s.camera = {point(v.from),
                     Convert<N>::pencil(w, scale),
                     Convert<N>::pencil(u * step, scale),
@@ -476,7 +476,7 @@ private:
         double step = 0, share = 0;
         if constexpr (N::is_fixed) {
             step = ldexp(1, -N::Length::frac);
-            share = IsNarrow<N> ? 0x1p-5 : 0x1p-8;
+            share = NarrowFixed<N> ? 0x1p-5 : 0x1p-8;
         } else {
             step = 256 * static_cast<double>(N::epsilon);
             share = sqrt(static_cast<double>(N::epsilon)) / 4;

@@ -26,7 +26,7 @@ struct Convert {
     // p less its rounding, in units of 2^-fine ulp.
     static Rounded<N> rounded([[maybe_unused]] const Vec3d& p, [[maybe_unused]] int fine)
     {
-        if constexpr (N::is_fixed && !IsNarrow<N>) {
+        if constexpr (WideFixed<N>) {
             const auto of = [fine](double v) {
                 const double fixed = ldexp(v, N::Length::frac);
                 return static_cast<int16_t>(lrint(ldexp(rint(fixed) - fixed, fine)));
@@ -41,7 +41,7 @@ struct Convert {
     // 1/r for r > 0.
     static typename N::Scale inverse(typename N::Length r)
     {
-        if constexpr (IsNarrow<N>) {
+        if constexpr (NarrowFixed<N>) {
             // r << shift in [2^14, 2^15), or r itself, up to 36700
             const int zeros = count_leading_zeros(static_cast<uint32_t>(r.raw)), shift = zeros > 17 ? zeros - 17 : 0;
             return {static_cast<int32_t>(lrint(ldexp(1, 15 + N::Unit::frac - shift) / r.raw)), shift};
@@ -68,7 +68,7 @@ struct Convert {
     {
         double whole = dot(row, origin) + offset;
         Vec3d r = row * (1 / scale);
-        if constexpr (IsNarrow<N>) {
+        if constexpr (NarrowFixed<N>) {
             // So many bits that p fits for every point of the scene, and no cells of less than a 2^-19 of an ulp.
             int exponent = 0;
             frexp((scene::length(r) * 62.5 + 1) * 1.0001, &exponent);
@@ -109,7 +109,7 @@ struct Convert {
     static LatticeStep<N> step(const LatticeAxis<N>& a)
     {
         const auto row = a.row_x + a.row_y + a.row_z; // two of them are 0
-        if constexpr (IsNarrow<N>)
+        if constexpr (NarrowFixed<N>)
             return {row, a.frac, a.offset, a.whole};
         else if constexpr (N::is_fixed)
             return {row, a.shift, a.offset};

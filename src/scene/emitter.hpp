@@ -15,7 +15,7 @@ namespace qray::scene {
 template <class N, class F>
 void for_each_table(const Storage<N>& s, const Effects& e, F f)
 {
-    constexpr const char* lattice = IsNarrow<N> ? "colour; x, y, z coordinate: row, frac, offset, whole"
+    constexpr const char* lattice = NarrowFixed<N> ? "colour; x, y, z coordinate: row, frac, offset, whole"
         : N::is_fixed                           ? "colour; x, y, z coordinate: row, shift, offset"
                                                 : "colour; x, y, z coordinate: row, inside, index";
     const auto table = [&f](bool present, const auto& array, const char* type, const char* name,
@@ -163,7 +163,7 @@ private:
 
     static constexpr const char* number_name()
     {
-        return std::is_same_v<N, Float> ? "Float" : std::is_same_v<N, Double> ? "Double" : IsNarrow<N> ? "q16" : "q32";
+        return std::is_same_v<N, Float> ? "Float" : std::is_same_v<N, Double> ? "Double" : NarrowFixed<N> ? "q16" : "q32";
     }
 
     void effects()
@@ -277,7 +277,7 @@ private:
     void value(const Vec<T>& v) { list(v.x, v.y, v.z); }
     void value(const Rounded<N>& v)
     {
-        if constexpr (N::is_fixed && !IsNarrow<N>) {
+        if constexpr (WideFixed<N>) {
             const auto& [x, y, z] = v;
             list(int32_t{x}, int32_t{y}, int32_t{z});
         } else {
@@ -360,7 +360,7 @@ private:
 
     void value(const LatticeAxis<N>& v)
     {
-        if constexpr (IsNarrow<N>) {
+        if constexpr (NarrowFixed<N>) {
             const auto& [x, y, z, frac, offset, whole] = v;
             list(x, y, z, frac, offset, whole);
         } else if constexpr (N::is_fixed) {
@@ -373,7 +373,7 @@ private:
     }
     void value(const LatticeStep<N>& v)
     {
-        if constexpr (IsNarrow<N>) {
+        if constexpr (NarrowFixed<N>) {
             const auto& [row, frac, offset, whole] = v;
             list(row, frac, offset, whole);
         } else if constexpr (N::is_fixed) {

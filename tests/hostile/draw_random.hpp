@@ -55,7 +55,7 @@ void draw_random(uint64_t seed, uint64_t count, bool energy, SceneTally& tally, 
             const bool negative = !(r >= 0 && g >= 0 && b >= 0);
             const double most = std::fmax(r, std::fmax(g, b));
             // Each of some hundred roundings may be upward; in q16 by 2^-14, together by less than half a level of a byte.
-            const double excess = IsNarrow<N> ? 0.5 / 255 : sizeof(light.x) == 8 ? 1e-9 : 1e-4;
+            const double excess = NarrowFixed<N> ? 0.5 / 255 : sizeof(light.x) == 8 ? 1e-9 : 1e-4;
             const bool brighter = energy && most > 1 + excess;
             const bool rays_over = rays.rays[2] + rays.rays[3] > (uint64_t{1} << settings.depth) - 2;
             tally.negative += negative;

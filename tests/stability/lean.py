@@ -57,13 +57,12 @@ def hollow(head, body):
     return rf"({head}\n    \{{\n).*?(\n    \}}\n)", rf"\g<1>        {body}\g<2>"
 
 
-NO_STEPS = [hollow(r"constexpr Length leave\(Unit g\)", "return {g.raw & 0};"),
-            hollow(r"constexpr Length leave_along\(Unit d\)", "return {d.raw & 0};"),
-            hollow(r"constexpr F leave\(F x, F y, F z\)", r"static_cast<void>(x + y + z);\n        return 0;"),
-            (r"Unit steep\{one\.raw / 16\}", "Unit steep{0}")]  # all may leave alike
-NO_LENGTHS = [hollow(r"constexpr void sharpen\(Unit& x, Unit& y, Unit& z\)",
-                     "static_cast<void>(x.raw + y.raw + z.raw);"),
-              hollow(r"constexpr void sharpen\(F& x, F& y, F& z\)", "static_cast<void>(x + y + z);")]
+# By header, in q32.
+NO_STEPS = {"system": [hollow(r"constexpr Length leave\(Unit g\)", "return {g.raw & 0};")],
+            "q32": [hollow(r"constexpr Length leave_along\(Unit d\)", "return {d.raw & 0};"),
+                    (r"Unit steep\{one\.raw / 16\}", "Unit steep{0}")]}  # all may leave alike
+NO_LENGTHS = {"q32": [hollow(r"constexpr void sharpen\(Unit& x, Unit& y, Unit& z\)",
+                             "static_cast<void>(x.raw + y.raw + z.raw);")]}
 
 
 def include(form):
@@ -78,10 +77,9 @@ def include(form):
             change(f"{folder}/qray/shape/sphere.hpp", [(r"(lean_knows_surface = )false", r"\g<1>true")])
     if "disc" not in has:
         shutil.copy(f"{HEADERS}/disc.hpp", f"{folder}/qray/shape")
-    if "step" not in has:
-        change(f"{folder}/qray/number/number.hpp", NO_STEPS)
-    if "unit" not in has:
-        change(f"{folder}/qray/number/number.hpp", NO_LENGTHS)
+    for part, changes in (("step", NO_STEPS), ("unit", NO_LENGTHS)):
+        for header in changes if part not in has else ():
+            change(f"{folder}/qray/number/{header}.hpp", changes[header])
     return folder
 
 

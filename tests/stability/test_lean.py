@@ -43,7 +43,7 @@ class Headers(unittest.TestCase):
     def test_every_form_can_be_made(self):
         for form in lean.FORMS:
             folder = lean.include(form)
-            with open("include/qray/number/number.hpp") as one, open(f"{folder}/qray/number/number.hpp") as other:
+            with open("include/qray/number/q32.hpp") as one, open(f"{folder}/qray/number/q32.hpp") as other:
                 self.assertEqual(one.read() == other.read(), {"step", "unit"} <= lean.FORMS[form], form)
             with open("include/qray/shape/sphere.hpp") as one, open(f"{folder}/qray/shape/sphere.hpp") as other:
                 self.assertEqual(one.read() == other.read(), "sphere" in lean.FORMS[form], form)

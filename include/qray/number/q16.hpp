@@ -12,12 +12,9 @@
 // The builder keeps these bounds, and refuses scenes of which too little would be left: see Limits::narrow_radius.
 #pragma once
 
-#include "number.hpp"
+#include "system.hpp"
 
 namespace qray {
-
-template <class N>
-concept IsNarrow = N::is_fixed && !N::is_wide;
 
 namespace detail {
 
@@ -80,34 +77,8 @@ QRAY_SHARED constexpr bool unit_short(int32_t x, int32_t y, int32_t z, int32_t* 
 
 } // namespace detail
 
-template <int LengthFrac, int UnitFrac, int ColourFrac>
-struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
-    static constexpr bool is_fixed = true;
-    static constexpr bool is_wide = false;
-    using Length = Fixed<LengthFrac, 16>;
-    using Unit = Fixed<UnitFrac, 16>;
-    using Colour = Fixed<ColourFrac, 16>;
-    using Eta = Fixed<UnitFrac - 1, 16>; // ratio of refractive indices, up to 8
-    using Area = Wide<2 * LengthFrac, 16>;
-    using Moment = Wide<LengthFrac + UnitFrac, 16>; // a Length times a Unit
-    using Cosine = Wide<2 * UnitFrac, 16>;
-    using Scale = FixedScale;
-    using Shine = Exponent;
-
+struct q16 : FixedNumbers<10, 14, 13, 13, 16> {
     static constexpr Length length_max{130900};
-    static constexpr Length length_zero{0};
-    static constexpr Unit one{int32_t{1} << UnitFrac};
-    static constexpr Unit zero{0};
-    static constexpr Colour black{0};
-    static constexpr Length ulp{1};
-
-    template <int F>
-    QRAY_INLINE static constexpr Length length(Wide<F, 16> w) { return round_to<Length>(w); }
-    template <int F>
-    QRAY_INLINE static constexpr Unit unit(Wide<F, 16> w) { return round_to<Unit>(w); }
-    template <int F>
-    QRAY_INLINE static constexpr Colour colour(Wide<F, 16> w) { return round_to<Colour>(w); }
-
     template <int A, int B>
     QRAY_INLINE static constexpr Wide<A + B, 16> dot(Fixed<A, 16> ax, Fixed<A, 16> ay, Fixed<A, 16> az,
                                                      Fixed<B, 16> bx, Fixed<B, 16> by, Fixed<B, 16> bz)
@@ -147,14 +118,10 @@ struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
     // difference is less than 2^16 ulp, and may well pass terms that are not: they count modulo 2^32.
     QRAY_INLINE static constexpr Length fine_sub(Moment a, Length b, int32_t fine)
     {
-        const int32_t down = UnitFrac - fine;
+        const int32_t down = Unit::frac - fine;
         const int32_t w =
-            static_cast<int32_t>(static_cast<uint32_t>(a.raw) - (static_cast<uint32_t>(b.raw) << UnitFrac));
+            static_cast<int32_t>(static_cast<uint32_t>(a.raw) - (static_cast<uint32_t>(b.raw) << Unit::frac));
         return {(w + (1 << (down - 1))) >> down};
-    }
-    QRAY_INLINE static constexpr Length coarse(Length a, int32_t fine)
-    {
-        return {(a.raw + (1 << fine >> 1)) >> fine};
     }
     QRAY_INLINE static constexpr Length fine(Length a, int32_t fine)
     {
@@ -175,7 +142,7 @@ struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
     template <int A, int B>
     static constexpr bool quotient(Wide<A, 16> num, Wide<B, 16> den, int k, Length& t)
     {
-        static_assert(B - A == UnitFrac - LengthFrac);
+        static_assert(B - A == Unit::frac - Length::frac);
         return quotient(num.raw, den.raw, k, t.raw);
     }
 
@@ -183,26 +150,21 @@ struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
     static constexpr bool normalise(int32_t x, int32_t y, int32_t z, Unit& ux, Unit& uy, Unit& uz)
     {
         int32_t u[3];
-        if (!detail::unit_short<UnitFrac>(x, y, z, u))
+        if (!detail::unit_short<Unit::frac>(x, y, z, u))
             return false;
         ux = {u[0]};
         uy = {u[1]};
         uz = {u[2]};
         return true;
     }
-    template <int F>
-    static constexpr bool normalise(Fixed<F, 16> x, Fixed<F, 16> y, Fixed<F, 16> z, Unit& ux, Unit& uy, Unit& uz)
-    {
-        return normalise(x.raw, y.raw, z.raw, ux, uy, uz);
-    }
-    template <int F>
-    static constexpr bool normalise(Wide<F, 16> x, Wide<F, 16> y, Wide<F, 16> z, Unit& ux, Unit& uy, Unit& uz)
+    template <class T>
+    static constexpr bool normalise(T x, T y, T z, Unit& ux, Unit& uy, Unit& uz)
     {
         return normalise(x.raw, y.raw, z.raw, ux, uy, uz);
     }
 
     // v / r as a Unit, for |v| <= about r, with r 2^shift in [2^14, 2^15), or r < 36700 and shift 0, and
-    // mantissa = 2^(15 + UnitFrac) / (r 2^shift).
+    // mantissa = 2^(15 + Unit::frac) / (r 2^shift).
     QRAY_INLINE static constexpr Unit ratio(Length v, Scale inverse_r)
     {
         return {((v.raw << inverse_r.shift) * inverse_r.mantissa + (1 << 14)) >> 15};
@@ -212,7 +174,7 @@ struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
     QRAY_INLINE static constexpr void sharpen(Unit& x, Unit& y, Unit& z)
     {
         const Cosine excess = x * x + y * y + z * z - one * one;
-        const Unit h{(excess.raw + (1 << UnitFrac)) >> (UnitFrac + 1)};
+        const Unit h{(excess.raw + (1 << Unit::frac)) >> (Unit::frac + 1)};
         x = x - unit(x * h);
         y = y - unit(y * h);
         z = z - unit(z * h);
@@ -224,23 +186,6 @@ struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
     {
         return count_leading_zeros(magnitude(a.raw) | magnitude(b.raw) | magnitude(c.raw)) - (32 - F);
     }
-    template <int F>
-    QRAY_INLINE static constexpr Wide<F, 16> shifted(Wide<F, 16> a, int k)
-    {
-        return {k >= 0 ? a.raw * (1 << k) : a.raw >> -k};
-    }
-    // Unit vectors know no more of each other.
-    static constexpr int most_headroom = UnitFrac;
-
-    // eta x, clamped to +-5/4: a bent direction longer than 1 is totally reflected, however long.
-    QRAY_INLINE static constexpr Unit bent(Eta eta, Unit x)
-    {
-        using Bent = Wide<Eta::frac + UnitFrac, 16>;
-        constexpr int32_t limit = int32_t{5} << (Bent::frac - 2);
-        const Bent w = eta * x;
-        return round_to<Unit>(Bent{w.raw > limit ? limit : w.raw < -limit ? -limit : w.raw});
-    }
-
     // Three areas of one sign (rounding may leave one beyond 0) as weights in their proportion, the largest
     // near 1. False where all are 0.
     template <int F>
@@ -263,23 +208,17 @@ struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
         const int up = count_leading_zeros(static_cast<uint32_t>(x | y | z));
         if (up == 32)
             return false;
-        wa = {static_cast<int32_t>(static_cast<uint32_t>(x) << up >> (32 - UnitFrac))};
-        wb = {static_cast<int32_t>(static_cast<uint32_t>(y) << up >> (32 - UnitFrac))};
-        wc = {static_cast<int32_t>(static_cast<uint32_t>(z) << up >> (32 - UnitFrac))};
+        wa = {static_cast<int32_t>(static_cast<uint32_t>(x) << up >> (32 - Unit::frac))};
+        wb = {static_cast<int32_t>(static_cast<uint32_t>(y) << up >> (32 - Unit::frac))};
+        wc = {static_cast<int32_t>(static_cast<uint32_t>(z) << up >> (32 - Unit::frac))};
         return true;
     }
 
     // Is a plane with this d.n seen almost edge on? Then its equation does not tell where the ray meets it.
     QRAY_INLINE static constexpr bool nearly_zero(Cosine c)
     {
-        constexpr int32_t limit = int32_t{1} << (2 * UnitFrac - 4);
+        constexpr int32_t limit = int32_t{1} << (2 * Unit::frac - 4);
         return limit > c.raw && -limit < c.raw;
-    }
-
-    // How far a new ray starts from the surface it leaves: 2 ulp along the geometric normal.
-    QRAY_INLINE static constexpr Length leave(Unit g)
-    {
-        return {(g.raw + (1 << (UnitFrac - 2))) >> (UnitFrac - 1)};
     }
 
     // A hit within this of a light is a hit at the light.
@@ -290,7 +229,7 @@ struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
     {
         if (x >= one || e.whole == 0)
             return one;
-        uint32_t base = static_cast<uint32_t>(x.raw) << (16 - UnitFrac), result = 1 << 16;
+        uint32_t base = static_cast<uint32_t>(x.raw) << (16 - Unit::frac), result = 1 << 16;
         for (uint32_t n = e.whole;;) {
             if (n & 1)
                 result = (result * base + (1 << 15)) >> 16;
@@ -301,24 +240,15 @@ struct FixedSystem<LengthFrac, UnitFrac, ColourFrac, 16> {
             if (base == 0)
                 return zero;
         }
-        return {static_cast<int32_t>((result + (1 << (15 - UnitFrac))) >> (16 - UnitFrac))};
+        return {static_cast<int32_t>((result + (1 << (15 - Unit::frac))) >> (16 - Unit::frac))};
     }
     static constexpr Unit power(Unit x, Shine e)
     {
         const Unit whole = power_whole(x, e);
         if (e.fraction == 0)
             return whole;
-        const uint32_t rest = pow_fraction(static_cast<uint32_t>(x.raw) << (30 - UnitFrac), e.fraction);
-        return unit(whole * Unit{static_cast<int32_t>(rest >> (30 - UnitFrac))});
-    }
-
-    static constexpr uint32_t magnitude(int32_t v)
-    {
-        return v < 0 ? 0 - static_cast<uint32_t>(v) : static_cast<uint32_t>(v);
-    }
-    static constexpr uint64_t magnitude(int64_t v)
-    {
-        return v < 0 ? 0 - static_cast<uint64_t>(v) : static_cast<uint64_t>(v);
+        const uint32_t rest = pow_fraction(static_cast<uint32_t>(x.raw) << (30 - Unit::frac), e.fraction);
+        return unit(whole * Unit{static_cast<int32_t>(rest >> (30 - Unit::frac))});
     }
 
 private:
@@ -330,7 +260,7 @@ private:
     {
         return static_cast<uint32_t>(a.raw + r.raw) > static_cast<uint32_t>(r.raw) * 2;
     }
-    // 2^(UnitFrac + k) num / den.
+    // 2^(Unit::frac + k) num / den.
     QRAY_SHARED static constexpr bool quotient(int32_t num, int32_t den, int k, int32_t& t)
     {
         uint32_t n = magnitude(num), d = magnitude(den);
@@ -338,7 +268,7 @@ private:
             return false;
         const int n_zeros = count_leading_zeros(n | 1), d_zeros = count_leading_zeros(d);
         // n / d is (upper half of n) times (reciprocal of d) times 2^-31, with these shifts undone.
-        const int down = 31 - UnitFrac - k + n_zeros - d_zeros;
+        const int down = 31 - Unit::frac - k + n_zeros - d_zeros;
         n <<= n_zeros;
         if (down < 14)
             return false;
@@ -351,6 +281,6 @@ private:
     }
 };
 
-using q16 = FixedSystem<10, 14, 13, 16>;
+static_assert(NumberSystem<q16> && NarrowFixed<q16>);
 
 } // namespace qray

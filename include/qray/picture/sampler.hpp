@@ -9,7 +9,7 @@ namespace qray {
 template <class N>
 struct Sample {
     using Level = uint32_t;
-    static constexpr int frac = IsNarrow<N> ? 20 : 28;
+    static constexpr int frac = NarrowFixed<N> ? 20 : 28;
     static constexpr Level one = uint32_t{1} << frac;
     Level r, g, b;
 
@@ -23,7 +23,7 @@ struct Sample {
     // rounding left up to 4 ulp below it count as on it.
     static constexpr uint8_t byte(Level v)
     {
-        if constexpr (IsNarrow<N>)
+        if constexpr (NarrowFixed<N>)
             return static_cast<uint8_t>((v * 255 + (one >> 1)) >> frac);
         else
             return static_cast<uint8_t>((wide_mul(v + 4, uint32_t{255}) + (one >> 1)) >> frac);

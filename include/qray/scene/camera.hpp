@@ -11,7 +11,7 @@ namespace qray {
 template <class N>
 struct Pencil;
 template <class N>
-    requires(N::is_fixed && !IsNarrow<N> && InParts<N>)
+    requires(WideFixed<N> && InParts<N>)
 struct Pencil<N> {
     int64_t x, y, z;
     constexpr bool unit(Direction<N>& d) const { return N::normalise_wide(x, y, z, d.x, d.y, d.z); }
@@ -19,7 +19,7 @@ struct Pencil<N> {
     friend constexpr Pencil operator*(const Pencil& a, int32_t k) { return {a.x * k, a.y * k, a.z * k}; }
 };
 template <class N>
-    requires IsNarrow<N>
+    requires NarrowFixed<N>
 struct Pencil<N> {
     int32_t x, y, z;
     constexpr bool unit(Direction<N>& d) const { return N::normalise(x, y, z, d.x, d.y, d.z); }

@@ -37,7 +37,7 @@ struct Tree {
 template <class N>
 class BoundedRay {
 public:
-    static constexpr bool raw = N::is_fixed && !IsNarrow<N>;
+    static constexpr bool raw = WideFixed<N>;
     // A length of 1, and the length of a direction.
     static constexpr float length = raw ? static_cast<float>(int64_t{1} << 24) : 1;
     static constexpr float unit = raw ? static_cast<float>(int64_t{1} << 30) : 1;
@@ -48,7 +48,7 @@ public:
         spread(ray.direction, dx, dy, dz);
         if constexpr (raw)
             static_assert(N::Length::frac == 24 && N::Unit::frac == 30);
-        if constexpr (IsNarrow<N>) { // the direction's length is wrong in the 14th bit
+        if constexpr (NarrowFixed<N>) { // the direction's length is wrong in the 14th bit
             const Bounds k = 1.5f - 0.5f * (dx * dx + dy * dy + dz * dz);
             dx *= k;
             dy *= k;
@@ -191,7 +191,7 @@ QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit vi
     // Where the direction's length is wrong in the 14th bit, so is a distance.
     const auto bound = [&limit] {
         const float t = BoundedRay<N>::as_float(limit());
-        return IsNarrow<N> ? t * (1.0f + 0x1p-12f) + 0x1p-6f : t;
+        return NarrowFixed<N> ? t * (1.0f + 0x1p-12f) + 0x1p-6f : t;
     };
     while (uint32_t mask = steps.next(bound(), base))
         for (; mask != 0; mask &= mask - 1)

@@ -80,7 +80,7 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
     const auto cdy = N::unit(s.cosine * dy);
     const auto a = cdx * cdx + cdy * cdy - ds * ds;
     bool along_generator = false;
-    if constexpr (N::is_fixed && !IsNarrow<N>)
+    if constexpr (WideFixed<N>)
         along_generator = N::is_small(a);
     typename N::Moment root{}; // of D; 0 for a ray that stands on the surface, whatever rounding made of it
     if (!along_generator) {
@@ -95,7 +95,7 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
     }
     const auto half_b = cx * cdx + cy * cdy - rho * ds;
     const auto c = cx * cx + cy * cy - rho * rho;
-    if constexpr (N::is_fixed && !IsNarrow<N>)
+    if constexpr (WideFixed<N>)
         if (along_generator) {
             bool real = N::small_discriminant(half_b, a, c, root);
             Length deepest{};

@@ -20,14 +20,14 @@ struct Sheared {
 
 // Where products have 32 bits, the sheared corner is exact: not rounded to a Length.
 template <class N>
-    requires IsNarrow<N>
+    requires NarrowFixed<N>
 struct Sheared<N> {
     typename N::Moment x, y;
 };
 
 template <class N>
 struct Shear {
-    static constexpr bool is_wide_fixed = N::is_fixed && !IsNarrow<N>;
+    static constexpr bool is_wide_fixed = WideFixed<N>;
 
     int axis; // the dominant axis of the direction: 0, 1, 2
     typename N::Unit dx, dy, dz; // the direction, that axis last
@@ -54,7 +54,7 @@ struct Shear {
     constexpr Sheared<N> operator()(const Point<N>& v) const
     {
         const Moments m = exact(v);
-        if constexpr (IsNarrow<N>)
+        if constexpr (NarrowFixed<N>)
             return {m.x, m.y};
         else
             return {N::length(m.x), N::length(m.y)};
@@ -94,7 +94,7 @@ private:
 template <class N>
 QRAY_INLINE constexpr auto edge(const Sheared<N>& a, const Sheared<N>& b)
 {
-    if constexpr (IsNarrow<N>)
+    if constexpr (NarrowFixed<N>)
         return Wide<2 * N::Moment::frac, 32>{wide_mul(a.x.raw, b.y.raw) - wide_mul(b.x.raw, a.y.raw)};
     else
         return a.x * b.y - b.x * a.y;
@@ -183,7 +183,7 @@ constexpr bool intersect_corners(const Direction<N>& normal, uint32_t count, Cor
     if (!inside)
         return false;
     // A rounded normal may put the plane beside the corners.
-    if constexpr (!IsNarrow<N>)
+    if constexpr (!NarrowFixed<N>)
         if (!edge_on)
             return true;
     return plane_distance<N>(normal, count, corner, ray, den, limit, t);

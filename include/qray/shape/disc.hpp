@@ -37,7 +37,7 @@ QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typena
     if constexpr (N::is_fixed && in_lanes<N>) { // outside the cube first: the sum of squares below then fits
         if (outside_cube<N>(w, r))
             return false;
-    } else if constexpr (N::is_fixed && !IsNarrow<N>)
+    } else if constexpr (WideFixed<N>)
         if (w.x > r || w.y > r || w.z > r || w.x < -r || w.y < -r || w.z < -r)
             return false;
     return !beyond<N>(w, r);

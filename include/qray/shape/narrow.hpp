@@ -40,7 +40,7 @@ struct NarrowRay<N> {
 };
 
 template <class N>
-    requires(N::is_fixed && N::is_wide && !has_wide_multiply)
+    requires(WideFixed<N> && !has_wide_multiply)
 struct NarrowRay<N> {
     // The origin in whole lengths / 2^8, less 1/2 so that a difference shifted down is rounded; the direction in Q14.
     int32_t ox, oy, oz, dx, dy, dz;
@@ -92,7 +92,7 @@ private:
 
 // The same with the upper halves of 32-bit products, each wrong by less than 1 and always downward.
 template <class N>
-    requires(N::is_fixed && N::is_wide && has_wide_multiply)
+    requires(WideFixed<N> && has_wide_multiply)
 struct NarrowRay<N> {
     const Ray<N>& ray;
 
@@ -127,7 +127,7 @@ private:
 
 // Where the exact test is as narrow: the perpendicular of sphere.hpp to one ulp, component by component.
 template <class N>
-    requires IsNarrow<N>
+    requires NarrowFixed<N>
 struct NarrowRay<N> {
     const Ray<N>& ray;
 

@@ -37,7 +37,7 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
     const Point<N> v = s.centre - ray.origin;
     const auto moment = dot<N>(v, ray.direction);
     middle = N::length(moment);
-    if constexpr (IsNarrow<N>) {
+    if constexpr (NarrowFixed<N>) {
         if (!Near && surely_missed(s, NarrowRay<N>(ray)))
             return false;
     } else if constexpr (!Near) {
@@ -59,7 +59,7 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
         half = N::sqrt(r2 - p2);
     else
         half = N::root(r2 - p2);
-    if constexpr (N::is_fixed && !IsNarrow<N>)
+    if constexpr (WideFixed<N>)
         foot = N::fine_rest(moment, middle, s.fine);
     return true;
 }
@@ -87,7 +87,7 @@ QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Ray<N>& ray, type
             t = N::ulp;
         }
     }
-    if constexpr (N::is_fixed && !IsNarrow<N>)
+    if constexpr (WideFixed<N>)
         local.along = foot + local.along;
     return t <= limit;
 }
@@ -121,7 +121,7 @@ QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Local<N>& local,
                                       Direction<N>& n)
 {
     auto from_near = local.along;
-    if constexpr (IsNarrow<N>) // the middle was rounded to a coarse ulp, and `near` is off by that along the ray
+    if constexpr (NarrowFixed<N>) // the middle was rounded to a coarse ulp, and `near` is off by that along the ray
         from_near = from_near - N::length(dot<N>(local.near, d));
     const Point<N> w = local.near + along<N>(from_near, d);
     // An error of |d| shows in |w|, and between mirrors would grow from one to the next: so made unit again.

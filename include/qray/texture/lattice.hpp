@@ -20,7 +20,7 @@ template <class N>
 struct LatticeAxis;
 
 template <class N>
-    requires(N::is_fixed && !IsNarrow<N>)
+    requires(WideFixed<N>)
 struct LatticeAxis<N> {
     // row . q = (sum of row_i q_i, in units of 2^-30 lengths) * 2^shift, in units of 2^-32 cells
     int32_t row_x, row_y, row_z;
@@ -64,7 +64,7 @@ struct LatticeAxis<N> {
 // The same in 32 bits: p = (row . q + offset) 2^-frac + whole, where the sum is less than 2^31 for every point of the
 // scene, so that the rounding of a row is worth 2^-15 of that sum: about 1 ulp of the point.
 template <class N>
-    requires IsNarrow<N>
+    requires NarrowFixed<N>
 struct LatticeAxis<N> {
     int32_t row_x, row_y, row_z;
     int32_t frac; // [1, 30]
@@ -163,7 +163,7 @@ template <class N>
 struct LatticeStep;
 
 template <class N>
-    requires(N::is_fixed && !IsNarrow<N>)
+    requires(WideFixed<N>)
 struct LatticeStep<N> {
     int32_t row;
     int32_t shift;
@@ -179,7 +179,7 @@ struct LatticeStep<N> {
 };
 
 template <class N>
-    requires IsNarrow<N>
+    requires NarrowFixed<N>
 struct LatticeStep<N> {
     int32_t row;
     int32_t frac;
@@ -230,7 +230,7 @@ struct Lattice {
 template <class N, class P>
 constexpr Cell<N> radial_cell(P a, P b, bool with_epsilon)
 {
-    if constexpr (IsNarrow<N>) {
+    if constexpr (NarrowFixed<N>) {
         // To 15 bits, if they have more.
         const uint32_t ua = N::magnitude(a), ub = N::magnitude(b);
         const int more = 17 - count_leading_zeros(ua | ub);

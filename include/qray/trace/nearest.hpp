@@ -160,7 +160,7 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
             return !surely_missed(shape, narrow) && f(shape, kind, index);
         };
         // Inlined where loops are unrolled, the reject by wide products takes more registers than there are.
-        if constexpr (N::is_fixed && !IsNarrow<N> && has_wide_multiply)
+        if constexpr (WideFixed<N> && has_wide_multiply)
             for_each_shape(scene, [&](const auto& shape, Kind kind, uint32_t index) { return ask(shape, kind, index); });
         else
             for_each_shape(scene, ask);
@@ -190,7 +190,7 @@ template <class N, Effects E>
 QRAY_INLINE constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit,
                                  [[maybe_unused]] ShapeSet set = every_shape)
 {
-    if constexpr ((!N::is_fixed && !E.windows) || (IsNarrow<N> && has_wide_multiply))
+    if constexpr ((!N::is_fixed && !E.windows) || (NarrowFixed<N> && has_wide_multiply))
         hit = {}; // or the compiler warns that it may be used unset
     if constexpr (E.windows) {
         hit.kind = Kind::sphere; // likewise

@@ -39,7 +39,7 @@ QRAY_INLINE constexpr Point<N> on_plane([[maybe_unused]] const Point<N>& c, [[ma
 {
     if constexpr (!N::is_fixed)
         return q - along_normal<N>(dot_normal<N>(q - c, normal), normal);
-    else if constexpr (IsNarrow<N>)
+    else if constexpr (NarrowFixed<N>)
         return q - along<N>(N::length(dot<N>(q - c, normal)), normal);
     else
         return q;
@@ -128,7 +128,7 @@ template <class N, Effects E>
 QRAY_INLINE constexpr Ray<N> going_on(const Surface<N>& s, [[maybe_unused]] Kind kind, Tag tag,
                                       const Direction<N>& d, bool above, [[maybe_unused]] typename N::Unit cosine)
 {
-    if constexpr (N::is_fixed && !IsNarrow<N>) {
+    if constexpr (WideFixed<N>) {
         bool outward = above != s.turned;
         if constexpr (E.patch)
             if (E.shapes() == 1 || kind == Kind::patch) {

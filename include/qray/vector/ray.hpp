@@ -65,7 +65,7 @@ struct Rounded {
     int16_t x, y, z;
 };
 template <class N>
-    requires(!N::is_fixed || IsNarrow<N>)
+    requires(!WideFixed<N>)
 struct Rounded<N> {};
 template <class N>
     requires(N::is_fixed && in_lanes<N>)
@@ -79,7 +79,7 @@ QRAY_INLINE constexpr Point<N> from_exact(const Point<N>& p, [[maybe_unused]] co
 {
     if constexpr (N::is_fixed && in_lanes<N>) {
         return p + lengths_of<N>(rounded);
-    } else if constexpr (N::is_fixed && !IsNarrow<N>) {
+    } else if constexpr (WideFixed<N>) {
         using Length = typename N::Length;
         return p + Point<N>{Length{rounded.x}, Length{rounded.y}, Length{rounded.z}};
     } else {
@@ -92,7 +92,7 @@ QRAY_INLINE constexpr Point<N> from_rounded(const Point<N>& p, [[maybe_unused]] 
 {
     if constexpr (N::is_fixed && in_lanes<N>) {
         return p - lengths_of<N>(rounded);
-    } else if constexpr (N::is_fixed && !IsNarrow<N>) {
+    } else if constexpr (WideFixed<N>) {
         using Length = typename N::Length;
         return p - Point<N>{Length{rounded.x}, Length{rounded.y}, Length{rounded.z}};
     } else {

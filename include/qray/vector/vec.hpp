@@ -11,7 +11,7 @@ namespace qray {
 template <class N>
 QRAY_INLINE constexpr bool beyond(const Vec<typename N::Length>& a, typename N::Length r)
 {
-    if constexpr (IsNarrow<N>)
+    if constexpr (NarrowFixed<N>)
         return N::beyond(a.x, a.y, a.z, r);
     else
         return norm2<N>(a) > r * r;

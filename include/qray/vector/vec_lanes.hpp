@@ -1,6 +1,6 @@
 // Vectors of float and of q32 in one register each, where a processor has such (lanes.hpp): the functions of
 // vec_parts.hpp for these number systems, and what else is done to all components at once. Ranges, units and results
-// are those of the functions by parts, of FixedSystem and of FloatSystem, bit for bit; tests/lanes compares them.
+// are those of the functions by parts, of q32 and of Float, bit for bit; tests/lanes compares them.
 #pragma once
 
 #include "vec_parts.hpp"
@@ -327,7 +327,7 @@ struct Pencil<N> {
     {
         return Pencil(a.lanes * static_cast<uint64_t>(int64_t{k}));
     }
-    // As FixedSystem::normalise_wide.
+    // As q32::normalise_wide.
     QRAY_INLINE bool unit(Vec<typename N::Unit>& d) const
     {
         const int zeros = count_leading_zeros(lane_any(lane_magnitude(lanes)));

@@ -3,8 +3,9 @@
 #pragma once
 
 #include "../number/lanes.hpp"
-#include "../number/number.hpp"
+#include "../number/floating.hpp"
 #include "../number/q16.hpp"
+#include "../number/q32.hpp"
 
 namespace qray {
 
@@ -33,7 +34,7 @@ QRAY_INLINE constexpr Vec<T> parts_of(const Vec<T>& a)
 
 // Are its vectors one register each? Then vec_lanes.hpp has the functions below.
 template <class N>
-inline constexpr bool in_lanes = QRAY_LANES && (N::is_fixed ? !IsNarrow<N> : sizeof(typename N::Length) == 4);
+inline constexpr bool in_lanes = QRAY_LANES && (N::is_fixed ? !NarrowFixed<N> : sizeof(typename N::Length) == 4);
 template <class N>
 concept InParts = !in_lanes<N>;
 
