@@ -311,7 +311,7 @@ TYPED_TEST(NumberTest, NormaliseWorksForLengthsOfEverySize)
                 c = static_cast<int64_t>(random.bits()) >> (64 - bits);
             const bool low = (v[0] >> 32) == (v[0] >> 63) && (v[1] >> 32) == (v[1] >> 63) && (v[2] >> 32) == (v[2] >> 63);
             typename N::Unit x{}, y{}, z{};
-            const bool any = N::normalise_wide(v[0], v[1], v[2], x, y, z);
+            const bool any = N::normalise(v[0], v[1], v[2], x, y, z);
             if (low)
                 for (auto& c : v)
                     c >>= 1;
@@ -340,9 +340,9 @@ TYPED_TEST(NumberTest, NormaliseKeepsTheSignAtTheEndsOfItsRange)
         for (int bit = 2; bit <= 61; bit++)
             for (int64_t below : {int64_t{1}, int64_t{0}}) {
                 const int64_t v = (int64_t{1} << bit) - below;
-                ASSERT_TRUE(N::normalise_wide(v, 0, 0, x, y, z));
+                ASSERT_TRUE(N::normalise(v, int64_t{0}, int64_t{0}, x, y, z));
                 EXPECT_NEAR(value(x), 1, M::unit_ulp()) << "2^" << bit << " - " << below;
-                ASSERT_TRUE(N::normalise_wide(0, 0, -v, x, y, z));
+                ASSERT_TRUE(N::normalise(int64_t{0}, int64_t{0}, -v, x, y, z));
                 EXPECT_NEAR(value(z), -1, M::unit_ulp()) << "-(2^" << bit << " - " << below << ")";
             }
     }

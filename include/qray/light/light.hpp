@@ -22,15 +22,7 @@ QRAY_INLINE constexpr bool towards(const Light<N>& light, const Point<N>& q, Dir
 {
     if constexpr (N::is_fixed) {
         const int s = light.shift;
-        Point<N> v;
-        if constexpr (in_lanes<N>) {
-            v = light.at - (s == 0 ? q : coarse<N>(q, s));
-        } else {
-            const int32_t half = int32_t{1} << s >> 1;
-            v = {typename N::Length{light.at.x.raw - ((q.x.raw + half) >> s)},
-                 typename N::Length{light.at.y.raw - ((q.y.raw + half) >> s)},
-                 typename N::Length{light.at.z.raw - ((q.z.raw + half) >> s)}};
-        }
+        const Point<N> v = light.at - coarse<N>(q, s);
         if (!normalise<N>(v, l))
             return false;
         const typename N::Moment reach = dot<N>(v, l), most = N::length_max * N::one;

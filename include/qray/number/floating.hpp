@@ -17,6 +17,7 @@ struct FloatSystem {
     using Moment = F;
     using Cosine = F;
     using Scale = F;
+    using Span = F;
     struct Shine {
         uint32_t whole;
         F fraction;
@@ -124,6 +125,14 @@ struct FloatSystem {
             return __builtin_bit_cast(int32_t, v) < 0;
         else
             return __builtin_bit_cast(int64_t, v) < 0;
+    }
+
+    static constexpr F whole_limit = F(uint32_t{1} << 31);
+    // floor(v) modulo 2^32, for |v| < whole_limit.
+    QRAY_INLINE static constexpr uint32_t floor(F v)
+    {
+        const int32_t whole = static_cast<int32_t>(v);
+        return static_cast<uint32_t>(whole) - negative(v - static_cast<F>(whole));
     }
 
     // How far a new ray starts from the surface it leaves, at a point that lies on it to its own rounding.

@@ -78,6 +78,7 @@ QRAY_SHARED constexpr bool unit_short(int32_t x, int32_t y, int32_t z, int32_t* 
 } // namespace detail
 
 struct q16 : FixedNumbers<10, 14, 13, 13, 16> {
+    using Span = int32_t; // a component of a direction that is not yet a unit vector
     static constexpr Length length_max{130900};
     template <int A, int B>
     QRAY_INLINE static constexpr Wide<A + B, 16> dot(Fixed<A, 16> ax, Fixed<A, 16> ay, Fixed<A, 16> az,
@@ -135,6 +136,7 @@ struct q16 : FixedNumbers<10, 14, 13, 13, 16> {
 
     // Square roots to the nearest; the radicand must not be negative.
     static constexpr Length sqrt(Area a) { return {static_cast<int32_t>(isqrt(static_cast<uint32_t>(a.raw)))}; }
+    static constexpr Length root(Area a) { return sqrt(a); }
     static constexpr Unit sqrt_unit(Cosine a) { return {static_cast<int32_t>(isqrt(static_cast<uint32_t>(a.raw)))}; }
 
     // t = 2^k num / den for k <= most_headroom, relative error at most 2^-14. False where den is 0, t exceeds

@@ -6,6 +6,7 @@
 namespace qray {
 
 struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
+    using Span = int64_t; // a component of a direction that is not yet a unit vector
     static_assert(Unit::frac == 30); // as unit_vector() has
 
     static constexpr Length length_max{INT32_MAX};
@@ -52,6 +53,7 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
 
     // Square roots to the nearest; the radicand must not be negative.
     static constexpr Length sqrt(Area a) { return {static_cast<int32_t>(isqrt(static_cast<uint64_t>(a.raw)))}; }
+    static constexpr Length root(Area a) { return sqrt(a); }
     static constexpr Unit sqrt_unit(Cosine a) { return {static_cast<int32_t>(isqrt(static_cast<uint64_t>(a.raw)))}; }
 
     // sqrt(b^2 - a c) for |a| < 1/8, |b| < 2^8, |c| < 2^14, or false where that is negative. Block-scaled: b
@@ -133,7 +135,7 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
     }
     // The same, but cut to 31 bits before: each component within 1.81 ulp. What is shorter than 2^32 loses
     // its lowest bit.
-    static constexpr bool normalise_wide(int64_t x, int64_t y, int64_t z, Unit& ux, Unit& uy, Unit& uz)
+    static constexpr bool normalise(int64_t x, int64_t y, int64_t z, Unit& ux, Unit& uy, Unit& uz)
     {
         // To 31 bits: the upper words, joined by what the lower ones hold below them.
         int up = 31;
@@ -149,7 +151,7 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
     template <int F>
     static constexpr bool normalise(Wide<F, 32> x, Wide<F, 32> y, Wide<F, 32> z, Unit& ux, Unit& uy, Unit& uz)
     {
-        return normalise_wide(x.raw, y.raw, z.raw, ux, uy, uz);
+        return normalise(x.raw, y.raw, z.raw, ux, uy, uz);
     }
 
     // v / r as a Unit, for |v| <= about r: one rounding.

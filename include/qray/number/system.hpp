@@ -109,7 +109,7 @@ concept Is = __is_same(T, Expected);
 template <class N>
 concept NumberSystem = requires(typename N::Length l, typename N::Unit u, typename N::Colour c, typename N::Eta eta,
                                 typename N::Moment moment, typename N::Area area, typename N::Cosine cosine,
-                                typename N::Scale scale, typename N::Shine shine, int k, bool flag) {
+                                typename N::Scale scale, typename N::Shine shine, typename N::Span span, int k) {
     { N::is_fixed } -> Is<const bool&>;
     { N::length_max } -> Is<const typename N::Length&>;
     { N::length_zero } -> Is<const typename N::Length&>;
@@ -141,9 +141,11 @@ concept NumberSystem = requires(typename N::Length l, typename N::Unit u, typena
     { N::most_headroom } -> Is<const int&>;
     // Roots, quotients, unit vectors, powers.
     { N::sqrt(area) } -> Is<typename N::Length>;
+    { N::root(area) } -> Is<typename N::Length>; // of what is known to be 0 or more
     { N::sqrt_unit(cosine) } -> Is<typename N::Unit>;
     { N::quotient(moment, cosine, k, l) } -> Is<bool>;
     { N::normalise(l, l, l, u, u, u) } -> Is<bool>;
+    { N::normalise(span, span, span, u, u, u) } -> Is<bool>;
     { N::ratio(l, scale) } -> Is<typename N::Unit>;
     { N::sharpen(u, u, u) } -> Is<void>;
     { N::bent(eta, u) } -> Is<typename N::Unit>;

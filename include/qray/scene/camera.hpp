@@ -6,39 +6,6 @@
 
 namespace qray {
 
-// A direction before it is made a unit vector: w + x u + y v with |w|, |x u|, |y v| <= 2^60 in fixed point, 2^29 where
-// products have 32 bits.
-template <class N>
-struct Pencil;
-template <class N>
-    requires(WideFixed<N> && InParts<N>)
-struct Pencil<N> {
-    int64_t x, y, z;
-    constexpr bool unit(Direction<N>& d) const { return N::normalise_wide(x, y, z, d.x, d.y, d.z); }
-    friend constexpr Pencil operator+(const Pencil& a, const Pencil& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend constexpr Pencil operator*(const Pencil& a, int32_t k) { return {a.x * k, a.y * k, a.z * k}; }
-};
-template <class N>
-    requires NarrowFixed<N>
-struct Pencil<N> {
-    int32_t x, y, z;
-    constexpr bool unit(Direction<N>& d) const { return N::normalise(x, y, z, d.x, d.y, d.z); }
-    friend constexpr Pencil operator+(const Pencil& a, const Pencil& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend constexpr Pencil operator*(const Pencil& a, int32_t k) { return {a.x * k, a.y * k, a.z * k}; }
-};
-template <class N>
-    requires(!N::is_fixed && InParts<N>)
-struct Pencil<N> {
-    using F = typename N::Length;
-    F x, y, z;
-    constexpr bool unit(Direction<N>& d) const { return N::normalise(x, y, z, d.x, d.y, d.z); }
-    friend constexpr Pencil operator+(const Pencil& a, const Pencil& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend constexpr Pencil operator*(const Pencil& a, int32_t k)
-    {
-        return {a.x * static_cast<F>(k), a.y * static_cast<F>(k), a.z * static_cast<F>(k)};
-    }
-};
-
 template <class N>
 struct Camera {
     Point<N> eye;

@@ -33,14 +33,7 @@ QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typena
         return false;
     const Point<N> a = along<N>(t, ray.direction);
     const Point<N> w = saturating_sub<N>(a, v);
-    const auto r = s.radius;
-    if constexpr (N::is_fixed && in_lanes<N>) { // outside the cube first: the sum of squares below then fits
-        if (outside_cube<N>(w, r))
-            return false;
-    } else if constexpr (WideFixed<N>)
-        if (w.x > r || w.y > r || w.z > r || w.x < -r || w.y < -r || w.z < -r)
-            return false;
-    return !beyond<N>(w, r);
+    return !outside_cube<N>(w, s.radius) && !beyond<N>(w, s.radius);
 }
 
 // How often the ray crosses the disc strictly between its origin and a light at `distance`: 0 or 1.

@@ -13,7 +13,7 @@ QRAY_INLINE constexpr bool intersect_plane(typename N::Moment num, typename N::C
 {
     constexpr typename N::Moment zero_moment{};
     constexpr typename N::Cosine zero_cosine{};
-    if constexpr (!N::is_fixed && !in_lanes<N>) { // 0 / 0, and infinity, are turned away below
+    if constexpr (!N::is_fixed) { // 0 / 0, and infinity, are turned away below
         if (N::negative(num) != N::negative(den))
             return false;
     } else if (den > zero_cosine ? !(num > zero_moment) : !(num < zero_moment)) {

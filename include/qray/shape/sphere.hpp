@@ -55,10 +55,7 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
         half = N::length_zero;
         return leaving == Leaves::inward; // however short, that chord has another end
     }
-    if constexpr (N::is_fixed || in_lanes<N>)
-        half = N::sqrt(r2 - p2);
-    else
-        half = N::root(r2 - p2);
+    half = N::root(r2 - p2);
     if constexpr (WideFixed<N>)
         foot = N::fine_rest(moment, middle, s.fine);
     return true;
@@ -125,13 +122,8 @@ QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Local<N>& local,
         from_near = from_near - N::length(dot<N>(local.near, d));
     const Point<N> w = local.near + along<N>(from_near, d);
     // An error of |d| shows in |w|, and between mirrors would grow from one to the next: so made unit again.
-    if constexpr (in_lanes<N>) {
-        n = ratio<N>(w, s.inverse_radius);
-        sharpen<N>(n);
-    } else {
-        n = {N::ratio(w.x, s.inverse_radius), N::ratio(w.y, s.inverse_radius), N::ratio(w.z, s.inverse_radius)};
-        N::sharpen(n.x, n.y, n.z);
-    }
+    n = ratio<N>(w, s.inverse_radius);
+    sharpen<N>(n);
     point = s.centre + coarse<N>(from_rounded(along<N>(s.radius, n), s.rounded), s.fine);
 }
 

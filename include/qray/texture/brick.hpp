@@ -15,24 +15,16 @@ struct Brick {
         const Cell<N> course = lattice.y.cell(q.y);
         const auto x = shifted(lattice.x.cell(q.x).inside, course.index);
         const auto z = shifted(lattice.z.cell(q.z).inside, course.index);
-        const auto joint = part(16);
-        return x < joint || z < joint || course.inside < part(8) ? colour : m;
+        constexpr auto joint = N::fraction(1, 16);
+        return x < joint || z < joint || course.inside < N::fraction(1, 8) ? colour : m;
     }
 
 private:
-    // One over a power of two.
-    static constexpr typename N::Unit part(int divisor)
-    {
-        if constexpr (N::is_fixed)
-            return {N::one.raw / divisor};
-        else
-            return typename N::Unit(1) / typename N::Unit(divisor);
-    }
     static constexpr typename N::Unit shifted(typename N::Unit f, uint32_t course)
     {
         if (!(course & 1))
             return f;
-        const auto g = f + part(2);
+        const auto g = f + N::fraction(1, 2);
         return g < N::one ? g : g - N::one;
     }
 };

@@ -121,7 +121,7 @@ struct LatticeAxis<N> {
     {
         if constexpr (sizeof(F) == 4) {
             // Conversions to 64 bits would link arithmetic in double precision on small cores.
-            if (!(N::absolute(p) < whole_limit))
+            if (!(N::absolute(p) < N::whole_limit))
                 return {whole_index(__builtin_bit_cast(uint32_t, p)), F(0)};
             return split<int32_t>(p);
         } else {
@@ -130,14 +130,6 @@ struct LatticeAxis<N> {
                 return {0, F(0)};
             return split<int64_t>(p);
         }
-    }
-
-    static constexpr F whole_limit = F(uint32_t{1} << 31);
-    // floor(p) of |p| < whole_limit.
-    static constexpr uint32_t below(F p)
-    {
-        const int32_t whole = static_cast<int32_t>(p);
-        return static_cast<uint32_t>(whole + (__builtin_bit_cast(int32_t, p - static_cast<F>(whole)) >> 31));
     }
 
 private:
@@ -149,7 +141,7 @@ private:
         const bool below = rest < F(0);
         return {static_cast<uint32_t>(whole - below), below ? rest + F(1) : rest};
     }
-    // Of binary32 beyond 2^31, modulo 2^32.
+    // Of binary32 beyond whole_limit, modulo 2^32.
     static constexpr uint32_t whole_index(uint32_t bits)
     {
         const uint32_t shift = (bits >> 23 & 0xff) - 150; // at least 8
@@ -200,10 +192,9 @@ struct LatticeStep<N> {
     F inside;
     uint32_t index;
 
-    constexpr F at(F q) const { return row * q + inside; }
     constexpr Cell<N> cell(F q) const
     {
-        const Cell<N> c = LatticeAxis<N>::split(at(q));
+        const Cell<N> c = LatticeAxis<N>::split(row * q + inside);
         return {c.index + index, c.inside};
     }
 };
@@ -216,12 +207,9 @@ struct Lattice {
     // Odd where the sum of the three cells is.
     QRAY_INLINE constexpr uint32_t parity(const Point<N>& q) const
     {
-        if constexpr (!N::is_fixed && sizeof(typename N::Length) == 4 && !in_lanes<N>) { // one question for all three
-            const auto px = x.at(q.x), py = y.at(q.y), pz = z.at(q.z);
-            if (N::absolute(px) + N::absolute(py) + N::absolute(pz) < LatticeAxis<N>::whole_limit)
-                return LatticeAxis<N>::below(px) + LatticeAxis<N>::below(py) + LatticeAxis<N>::below(pz) + x.index
-                    + y.index + z.index;
-        }
+        uint32_t sum = 0;
+        if (sum_of_cells<N>(x, y, z, q, sum))
+            return sum;
         return x.cell(q.x).index + y.cell(q.y).index + z.cell(q.z).index;
     }
 };

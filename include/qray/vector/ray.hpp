@@ -50,15 +50,6 @@ struct Local {
     typename N::Length along;
 };
 
-// 2^fine (middle d - v), rounded once: the point of the ray at `middle`, seen from o + v.
-template <InParts N>
-QRAY_INLINE constexpr Point<N> fine_offset(typename N::Length middle, const Direction<N>& d, const Point<N>& v,
-                                           int32_t fine)
-{
-    return {N::fine_sub(middle * d.x, v.x, fine), N::fine_sub(middle * d.y, v.y, fine),
-            N::fine_sub(middle * d.z, v.z, fine)};
-}
-
 // A point's rounded coordinates less the exact ones, times 2^fine.
 template <class N>
 struct Rounded {
@@ -98,13 +89,6 @@ QRAY_INLINE constexpr Point<N> from_rounded(const Point<N>& p, [[maybe_unused]] 
     } else {
         return p;
     }
-}
-
-// Back from the block scale.
-template <InParts N>
-QRAY_INLINE constexpr Point<N> coarse(const Point<N>& p, int32_t fine)
-{
-    return {N::coarse(p.x, fine), N::coarse(p.y, fine), N::coarse(p.z, fine)};
 }
 
 template <class N>

@@ -254,6 +254,20 @@ QRAY_INLINE auto coarse(const Vec<typename N::Length>& p, int32_t fine)
     return Vec<typename N::Length>(words((halves(p.lanes) + (1 << fine >> 1)) >> fine));
 }
 
+// Is any component beyond +-r?
+template <FixedLanes N>
+QRAY_INLINE bool outside_cube(const Vec<typename N::Length>& v, typename N::Length r)
+{
+    const Half8 w = halves(v.lanes), edge = all_halves(r.raw);
+    return any_of_three((w > edge) | (w < -edge));
+}
+
+template <FloatLanes N>
+QRAY_INLINE bool outside_cube(const Vec<float>&, float)
+{
+    return false;
+}
+
 // Three 16-bit integers, of a type aligned to 8 bytes.
 template <FixedLanes N, class Short3>
 QRAY_INLINE auto lengths_of(const Short3& v)
@@ -285,9 +299,9 @@ QRAY_INLINE void clamped_bytes(const Vec<typename N::Colour>& light, int exposur
         rgb[i] = static_cast<uint8_t>(bytes[i]);
 }
 
-// checker.hpp: a number that is odd where the sum of a point's three cells is; false where it must be found one by one.
-template <class Step>
-QRAY_INLINE bool lane_cell_sum(const Step& x, const Step& y, const Step& z, const Vec<float>& q, uint32_t& sum)
+// Here all three floors at once.
+template <FloatLanes N, class Step>
+QRAY_INLINE bool sum_of_cells(const Step& x, const Step& y, const Step& z, const Vec<float>& q, uint32_t& sum)
 {
     const Float4 p = q.lanes * Float4{x.row, y.row, z.row} + Float4{x.inside, y.inside, z.inside};
     const Float4 limit = {0x1p31f, 0x1p31f, 0x1p31f, 0x1p31f};
@@ -297,10 +311,12 @@ QRAY_INLINE bool lane_cell_sum(const Step& x, const Step& y, const Step& z, cons
     sum = static_cast<uint32_t>(whole[0] ^ whole[1] ^ whole[2]) ^ x.index ^ y.index ^ z.index;
     return true;
 }
+template <FixedLanes N, class Step>
+QRAY_INLINE bool sum_of_cells(const Step&, const Step&, const Step&, const Vec<typename N::Length>&, uint32_t&)
+{
+    return false;
+}
 
-// camera.hpp: here, where a pencil's three numbers are one register too.
-template <class N>
-struct Pencil;
 template <FloatLanes N>
 struct Pencil<N> : Vec<float> {
     using Vec<float>::Vec;
@@ -327,7 +343,7 @@ struct Pencil<N> {
     {
         return Pencil(a.lanes * static_cast<uint64_t>(int64_t{k}));
     }
-    // As q32::normalise_wide.
+    // As q32::normalise.
     QRAY_INLINE bool unit(Vec<typename N::Unit>& d) const
     {
         const int zeros = count_leading_zeros(lane_any(lane_magnitude(lanes)));
@@ -335,14 +351,6 @@ struct Pencil<N> {
         return normalise<N>(Vec<typename N::Unit>(upper_halves(lanes << up)), d);
     }
 };
-
-// Is any component beyond +-r?
-template <FixedLanes N>
-QRAY_INLINE bool outside_cube(const Vec<typename N::Length>& v, typename N::Length r)
-{
-    const Half8 w = halves(v.lanes), edge = all_halves(r.raw);
-    return any_of_three((w > edge) | (w < -edge));
-}
 
 } // namespace qray
 

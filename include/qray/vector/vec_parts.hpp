@@ -68,6 +68,64 @@ QRAY_INLINE constexpr Vec<typename N::Colour> scaled(typename N::Unit k, const V
     return {N::colour(c.x * k), N::colour(c.y * k), N::colour(c.z * k)};
 }
 
+// Light after a surface or a veil of colour m.
+template <InParts N>
+QRAY_INLINE constexpr Vec<typename N::Colour> filtered(const Vec<typename N::Colour>& light,
+                                                       const Vec<typename N::Unit>& m)
+{
+    return {N::colour(light.x * m.x), N::colour(light.y * m.y), N::colour(light.z * m.z)};
+}
+// v / r, for |v| <= about r.
+template <InParts N>
+QRAY_INLINE constexpr Vec<typename N::Unit> ratio(const Vec<typename N::Length>& v, typename N::Scale inverse_r)
+{
+    return {N::ratio(v.x, inverse_r), N::ratio(v.y, inverse_r), N::ratio(v.z, inverse_r)};
+}
+
+// 2^fine (middle d - v), rounded once: the point of the ray at `middle`, seen from o + v.
+template <InParts N>
+QRAY_INLINE constexpr Vec<typename N::Length> fine_offset(typename N::Length middle, const Vec<typename N::Unit>& d,
+                                                          const Vec<typename N::Length>& v, int32_t fine)
+{
+    return {N::fine_sub(middle * d.x, v.x, fine), N::fine_sub(middle * d.y, v.y, fine),
+            N::fine_sub(middle * d.z, v.z, fine)};
+}
+// Back from the block scale.
+template <InParts N>
+QRAY_INLINE constexpr Vec<typename N::Length> coarse(const Vec<typename N::Length>& p, int32_t fine)
+{
+    return {N::coarse(p.x, fine), N::coarse(p.y, fine), N::coarse(p.z, fine)};
+}
+
+// Is any component beyond +-r? In fixed point, of what is not, sums of squares fit; others do without.
+template <InParts N>
+QRAY_INLINE constexpr bool outside_cube([[maybe_unused]] const Vec<typename N::Length>& w,
+                                        [[maybe_unused]] typename N::Length r)
+{
+    if constexpr (WideFixed<N>)
+        return w.x > r || w.y > r || w.z > r || w.x < -r || w.y < -r || w.z < -r;
+    else
+        return false;
+}
+
+// Of lattice.hpp, a number that is odd where the sum of a point's three cells is: where one question tells for all three
+// that they fit a word. False where they must be found one by one.
+template <InParts N, class Step>
+QRAY_INLINE constexpr bool sum_of_cells([[maybe_unused]] const Step& x, [[maybe_unused]] const Step& y,
+                                        [[maybe_unused]] const Step& z,
+                                        [[maybe_unused]] const Vec<typename N::Length>& q,
+                                        [[maybe_unused]] uint32_t& sum)
+{
+    if constexpr (!N::is_fixed && sizeof(typename N::Length) == 4) {
+        const auto px = x.row * q.x + x.inside, py = y.row * q.y + y.inside, pz = z.row * q.z + z.inside;
+        if (N::absolute(px) + N::absolute(py) + N::absolute(pz) < N::whole_limit) {
+            sum = N::floor(px) + N::floor(py) + N::floor(pz) + x.index + y.index + z.index;
+            return true;
+        }
+    }
+    return false;
+}
+
 // dot() and along() for the normal of a flat surface. In a constant table it often lies along an axis, and products with
 // 0 change nothing but the sign of a floating-point 0.
 template <class N, class A>
@@ -107,6 +165,15 @@ QRAY_INLINE constexpr Vec<typename N::Length> step_off(const Vec<typename N::Len
     }
 }
 
+// The same for a ray that goes on with a picture and is steep, along itself.
+template <InParts N>
+    requires WideFixed<N>
+QRAY_INLINE constexpr Vec<typename N::Length> step_along(const Vec<typename N::Length>& q,
+                                                         const Vec<typename N::Unit>& d)
+{
+    return {q.x + N::leave_along(d.x), q.y + N::leave_along(d.y), q.z + N::leave_along(d.z)};
+}
+
 // The unit vector along v, each component within 1 ulp (fixed point). False, and u untouched, where v is zero.
 template <class N, class T>
     requires(InParts<N> || sizeof(T) > 4)
@@ -121,6 +188,22 @@ QRAY_INLINE constexpr void sharpen(Vec<typename N::Unit>& n)
 {
     N::sharpen(n.x, n.y, n.z);
 }
+
+// A direction before it is made a unit vector: w + x u + y v with |w|, |x u|, |y v| <= 2^60 in fixed point, 2^29 where
+// products have 32 bits.
+template <class N>
+struct Pencil;
+template <InParts N>
+struct Pencil<N> {
+    using Part = typename N::Span;
+    Part x, y, z;
+    constexpr bool unit(Vec<typename N::Unit>& d) const { return N::normalise(x, y, z, d.x, d.y, d.z); }
+    friend constexpr Pencil operator+(const Pencil& a, const Pencil& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    friend constexpr Pencil operator*(const Pencil& a, int32_t k)
+    {
+        return {a.x * static_cast<Part>(k), a.y * static_cast<Part>(k), a.z * static_cast<Part>(k)};
+    }
+};
 
 // a - b, each component clamped to the range of Length.
 template <InParts N>
