@@ -1,4 +1,5 @@
-#include "../include/qray/number/base.hpp"
+#include "../include/qray/number/root.hpp"
+#include "../include/qray/number/wide.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "../include/qray/number/math.hpp"
+#include "../include/qray/number/power.hpp"
 
 #include <gtest/gtest.h>
 

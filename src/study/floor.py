@@ -23,7 +23,7 @@ STEPS = ["camera", "nearest hit", "spheres", "discs", "shading", "textures", "ou
 
 # Instructions of the parts that operations consist of. `wide` and `square` are 32 x 32 -> 64 bits, `sum` adds
 # such a product to another, `high` is the upper half alone, `round` takes 64 bits to 32; `word` is one of
-# several that are loaded or stored together. On the M0 the products are those of include/qray/number/base.hpp, the
+# several that are loaded or stored together. On the M0 the products are those of include/qray/number/wide.hpp, the
 # shortest known.
 PARTS = {
     "microbit": {"wide": 18, "square": 11, "sum": 2, "high": 17, "round": 3, "clz": 18, "word": 1 / 3},

@@ -6,9 +6,7 @@
 // Nothing here checks for overflow: every caller states why its values fit, or uses saturating_*.
 #pragma once
 
-#include <stdint.h>
-
-#include "base.hpp"
+#include "wide.hpp"
 
 namespace qray {
 

@@ -12,6 +12,7 @@
 
 #include "fixed.hpp"
 #include "math.hpp"
+#include "power.hpp"
 
 namespace qray {
 
