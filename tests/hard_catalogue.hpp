@@ -207,13 +207,13 @@ bool meets(Check& check, S shape, Ray<N> ray, typename N::Length& t, typename N:
     bool alone = false, after = false;
     if constexpr (requires { shape.axis; }) {
         alone = intersect(shape, ray, limit, other, local);
-        after = !surely_missed(shape, NarrowRay<N>(ray)) && intersect<true>(shape, ray, limit, t, local);
+        after = !surely_missed(shape, RejectRay<N>(ray)) && intersect<true>(shape, ray, limit, t, local);
     } else if constexpr (requires { shape.inverse_radius; }) {
         alone = intersect(shape, ray, limit, other, local);
-        after = !surely_missed(shape, NarrowRay<N>(ray)) && intersect<true>(shape, ray, limit, t, local);
+        after = !surely_missed(shape, RejectRay<N>(ray)) && intersect<true>(shape, ray, limit, t, local);
     } else {
         alone = intersect(shape, ray, limit, other);
-        after = !surely_missed(shape, NarrowRay<N>(ray)) && intersect(shape, ray, limit, t);
+        after = !surely_missed(shape, RejectRay<N>(ray)) && intersect(shape, ray, limit, t);
     }
     QRAY_HOLDS(alone == after && (!alone || other == t));
     return after;
@@ -608,7 +608,7 @@ struct Figure {
     {
         hide(*this);
         hide(ray);
-        return !surely_missed(shape, NarrowRay<N>(ray)) && intersect(shape, at, ray, N::length_max, t);
+        return !surely_missed(shape, RejectRay<N>(ray)) && intersect(shape, at, ray, N::length_max, t);
     }
 };
 

@@ -43,11 +43,11 @@ TYPED_TEST(RayTest, OfTwoHitsTheNearerOrElseTheFirstInTheFileComesBefore)
     Hit<TypeParam> hit{};
     hit.t = M::length(2);
     hit.tag = make_tag(5, 9);
-    EXPECT_TRUE(hit.after(M::length(1.5), make_tag(6, 0)));
-    EXPECT_FALSE(hit.after(M::length(2.5), make_tag(4, 0)));
-    EXPECT_TRUE(hit.after(M::length(2), make_tag(4, 4095))); // whatever the materials
-    EXPECT_FALSE(hit.after(M::length(2), make_tag(6, 0)));
-    EXPECT_FALSE(hit.after(M::length(2), make_tag(5, 9)));
+    EXPECT_TRUE(hit.is_behind(M::length(1.5), make_tag(6, 0)));
+    EXPECT_FALSE(hit.is_behind(M::length(2.5), make_tag(4, 0)));
+    EXPECT_TRUE(hit.is_behind(M::length(2), make_tag(4, 4095))); // whatever the materials
+    EXPECT_FALSE(hit.is_behind(M::length(2), make_tag(6, 0)));
+    EXPECT_FALSE(hit.is_behind(M::length(2), make_tag(5, 9)));
 }
 
 } // namespace

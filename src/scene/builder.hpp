@@ -150,7 +150,7 @@ private:
     Point<N> point(const Vec3d& p) const { return Convert<N>::point(frame.point(p)); }
     typename N::Length radius(double r) const { return Convert<N>::length(r * frame.scale); }
     // A bound that rounding does not make too small. In q16 that of corners and of the middle, sqrt(3) ulp, and the 3 and
-    // more of its reject: see narrow.hpp.
+    // more of its reject: see reject.hpp.
     typename N::Length bound(double r) const
     {
         return Convert<N>::length(r * frame.scale * (1 + 1e-6) + (NarrowFixed<N> ? 6.0 / 1024 : 2e-6));

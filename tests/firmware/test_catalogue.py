@@ -12,7 +12,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, "tests/firmware")
 from test_boards import make  # noqa: E402
 
-# What narrow.hpp, base.hpp and the number systems do differently on a core each.
+# What reject.hpp, base.hpp and the number systems do differently on a core each.
 IMAGES = [("microbit", "q32"), ("microbit", "q16"), ("microbit", "float"), ("mps2_an385", "q32"),
           ("mps2_an386", "float"), ("rv32_virt", "q32")]
 TYPES = {"q16": "q16", "q32": "q32", "float": "Float", "double": "Double"}

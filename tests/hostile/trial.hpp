@@ -267,7 +267,7 @@ private:
             if (size(trial.outside(o + d) - trial.outside(o)) < a_little)
                 return;
         }
-        const int counted = surely_missed(trial.shape, qray::NarrowRay<N>(first_ray))
+        const int counted = surely_missed(trial.shape, qray::RejectRay<N>(first_ray))
             ? 0
             : crossings_in(scene(), trial.shape, first_ray, N::length_max);
         if (Trial::curved ? (counted ^ expected) & 1 : counted != count)

@@ -33,7 +33,7 @@ struct Bundle {
     TrialOf<N> trial;
     decltype(textbook::form<T, TrialOf<N>::effects>()) form;
     qray::Ray<N> rays[rays_each];
-    std::vector<qray::NarrowRay<N>> narrow;
+    std::vector<qray::RejectRay<N>> narrow;
     textbook::Ray<T> textbook_rays[rays_each];
 
     void make(Random& random)

@@ -15,7 +15,7 @@
 // again there, where it is -A C.
 #pragma once
 
-#include "narrow.hpp"
+#include "reject.hpp"
 
 namespace qray {
 
@@ -34,9 +34,9 @@ struct Cone {
 };
 
 template <class N>
-QRAY_INLINE constexpr bool surely_missed(const Cone<N>& s, const NarrowRay<N>& narrow)
+QRAY_INLINE constexpr bool surely_missed(const Cone<N>& s, const RejectRay<N>& ray)
 {
-    return narrow.misses_ball(s.middle, N::coarse_above(s.bound, s.fine));
+    return ray.misses_ball(s.middle, N::coarse_above(s.bound, s.fine));
 }
 
 // The ray's meetings with the frustum, t > 0: how many (0, 1 or 2), the nearer in t[0].

@@ -2,7 +2,7 @@
 // the disc of radius sqrt(far^2 - h^2) around the foot of that centre, h away from it, and is stored as one.
 #pragma once
 
-#include "narrow.hpp"
+#include "reject.hpp"
 #include "plane.hpp"
 
 namespace qray {
@@ -16,9 +16,9 @@ struct Disc {
 };
 
 template <class N>
-QRAY_INLINE constexpr bool surely_missed(const Disc<N>& s, const NarrowRay<N>& narrow)
+QRAY_INLINE constexpr bool surely_missed(const Disc<N>& s, const RejectRay<N>& ray)
 {
-    return narrow.misses_plane(s.centre, s.normal);
+    return ray.misses_plane(s.centre, s.normal);
 }
 
 // t in (0, limit], or false. The disc that the ray starts on does not count.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "corners.hpp"
-#include "narrow.hpp"
+#include "reject.hpp"
 
 namespace qray {
 
@@ -16,9 +16,9 @@ struct Polygon {
 };
 
 template <class N>
-QRAY_INLINE constexpr bool surely_missed(const Polygon<N>& s, const NarrowRay<N>& narrow)
+QRAY_INLINE constexpr bool surely_missed(const Polygon<N>& s, const RejectRay<N>& ray)
 {
-    return narrow.misses_ball(s.middle, s.bound);
+    return ray.misses_ball(s.middle, s.bound);
 }
 
 // t in (0, limit], or false. The polygon that the ray starts on does not count.

@@ -6,7 +6,7 @@
 // `fine` more bits than Length, so that a small ball far away is as round as a large one.
 #pragma once
 
-#include "narrow.hpp"
+#include "reject.hpp"
 
 namespace qray {
 
@@ -21,9 +21,9 @@ struct Sphere {
 };
 
 template <class N>
-QRAY_INLINE constexpr bool surely_missed(const Sphere<N>& s, const NarrowRay<N>& narrow)
+QRAY_INLINE constexpr bool surely_missed(const Sphere<N>& s, const RejectRay<N>& ray)
 {
-    return narrow.misses_ball(s.centre, N::coarse_above(s.radius, s.fine));
+    return ray.misses_ball(s.centre, N::coarse_above(s.radius, s.fine));
 }
 
 // Half the chord that the ray cuts from the sphere, the t of its middle, and that middle, from the centre; false
@@ -38,7 +38,7 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
     const auto moment = dot<N>(v, ray.direction);
     middle = N::length(moment);
     if constexpr (NarrowFixed<N>) {
-        if (!Near && surely_missed(s, NarrowRay<N>(ray)))
+        if (!Near && surely_missed(s, RejectRay<N>(ray)))
             return false;
     } else if constexpr (!Near) {
         const auto reach = N::coarse_above(s.radius, s.fine);

@@ -89,11 +89,11 @@ QRAY_INLINE constexpr ShapeSet near_shapes(const Scene<N, E>& scene, const Ray<N
 {
     if ((of & unasked) == 0)
         return of;
-    const NarrowRay<N> narrow(ray);
+    const RejectRay<N> reject(ray);
     ShapeSet set = 0, bit = set_of(0);
     for_each_shape(scene, [&](const auto& shape, Kind kind, uint32_t) __attribute__((always_inline)) {
         if (kind != Kind::disc) {
-            if ((of & bit) != 0 && !surely_missed(shape, narrow))
+            if ((of & bit) != 0 && !surely_missed(shape, reject))
                 set |= bit;
             bit >>= 1;
         }
@@ -109,7 +109,7 @@ QRAY_INLINE constexpr void for_each_in_sight(const Scene<N, E>& scene, const Ray
     // A sphere is its ball. What lies out of another's, as a hit on a polygon may whose corners are no plane's, is none.
     const auto ask = [&](const auto& shape, Kind kind, uint32_t index) __attribute__((always_inline)) {
         if constexpr (requires { shape.bound; })
-            if (surely_missed(shape, NarrowRay<N>(ray)))
+            if (surely_missed(shape, RejectRay<N>(ray)))
                 return false;
         return f(shape, kind, index);
     };
@@ -155,9 +155,9 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
             return with_shape(scene, id.kind(), id.index(), f);
         });
     } else {
-        const NarrowRay<N> narrow(ray);
+        const RejectRay<N> reject(ray);
         const auto ask = [&](const auto& shape, Kind kind, uint32_t index) __attribute__((always_inline)) {
-            return !surely_missed(shape, narrow) && f(shape, kind, index);
+            return !surely_missed(shape, reject) && f(shape, kind, index);
         };
         // Inlined where loops are unrolled, the reject by wide products takes more registers than there are.
         if constexpr (WideFixed<N> && has_wide_multiply)
@@ -174,7 +174,7 @@ QRAY_INLINE constexpr void keep_nearest(const Scene<N, E>& scene, const Ray<N>& 
 {
     typename N::Length t{};
     Local<N> local{};
-    if (intersect_in(scene, shape, ray, hit.t, t, local) && hit.after(t, shape.tag)) {
+    if (intersect_in(scene, shape, ray, hit.t, t, local) && hit.is_behind(t, shape.tag)) {
         hit.t = t;
         hit.tag = shape.tag;
         hit.kind = kind;

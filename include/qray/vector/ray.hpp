@@ -99,8 +99,8 @@ struct Hit {
     uint32_t index; // into the scene's table of that kind
     Local<N> local; // curved surfaces only
 
-    // A hit at distance t on the surface named by tag comes before this one.
-    QRAY_INLINE constexpr bool after(typename N::Length t2, Tag tag2) const
+    // Is it behind a hit at distance t2 on the surface named by tag2?
+    QRAY_INLINE constexpr bool is_behind(typename N::Length t2, Tag tag2) const
     {
         return t2 < t || (t2 == t && tag2.place() < tag.place());
     }

@@ -2,7 +2,7 @@
 // shadow that ends at the light's t. lean.py beside this folder builds firmware with it.
 #pragma once
 
-#include "narrow.hpp"
+#include "reject.hpp"
 #include "plane.hpp"
 #include "sphere.hpp"
 
@@ -17,9 +17,9 @@ struct Disc {
 };
 
 template <class N>
-QRAY_INLINE constexpr bool surely_missed(const Disc<N>& s, const NarrowRay<N>& narrow)
+QRAY_INLINE constexpr bool surely_missed(const Disc<N>& s, const RejectRay<N>& ray)
 {
-    return narrow.misses_plane(s.centre, s.normal);
+    return ray.misses_plane(s.centre, s.normal);
 }
 
 template <class N>

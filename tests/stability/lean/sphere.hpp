@@ -3,7 +3,7 @@
 // builds firmware with it.
 #pragma once
 
-#include "narrow.hpp"
+#include "reject.hpp"
 
 namespace qray {
 
@@ -42,9 +42,9 @@ struct Sphere {
 };
 
 template <class N>
-QRAY_INLINE constexpr bool surely_missed(const Sphere<N>& s, const NarrowRay<N>& narrow)
+QRAY_INLINE constexpr bool surely_missed(const Sphere<N>& s, const RejectRay<N>& ray)
 {
-    return narrow.misses_ball(s.centre, s.reach);
+    return ray.misses_ball(s.centre, s.reach);
 }
 
 // t of both meetings, and the centre as seen from the origin.

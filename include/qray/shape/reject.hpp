@@ -9,15 +9,15 @@
 namespace qray {
 
 template <class N>
-struct NarrowRay;
+struct RejectRay;
 
 template <class N>
     requires(!N::is_fixed)
-struct NarrowRay<N> {
+struct RejectRay<N> {
     const Ray<N>& ray;
     typename N::Length across; // the y component of origin x direction
 
-    QRAY_INLINE constexpr explicit NarrowRay(const Ray<N>& r)
+    QRAY_INLINE constexpr explicit RejectRay(const Ray<N>& r)
         : ray(r), across(r.direction.x * r.origin.z - r.direction.z * r.origin.x)
     {
     }
@@ -41,14 +41,14 @@ struct NarrowRay<N> {
 
 template <class N>
     requires(WideFixed<N> && !has_wide_multiply)
-struct NarrowRay<N> {
+struct RejectRay<N> {
     // The origin in whole lengths / 2^8, less 1/2 so that a difference shifted down is rounded; the direction in Q14.
     int32_t ox, oy, oz, dx, dy, dz;
 
     static constexpr int down = N::Length::frac - 8;
     static constexpr int down_unit = N::Unit::frac - 14;
 
-    QRAY_INLINE constexpr explicit NarrowRay(const Ray<N>& ray)
+    QRAY_INLINE constexpr explicit RejectRay(const Ray<N>& ray)
         : ox(ray.origin.x.raw - half), oy(ray.origin.y.raw - half), oz(ray.origin.z.raw - half),
           dx(narrow(ray.direction.x)), dy(narrow(ray.direction.y)), dz(narrow(ray.direction.z))
     {
@@ -93,10 +93,10 @@ private:
 // The same with the upper halves of 32-bit products, each wrong by less than 1 and always downward.
 template <class N>
     requires(WideFixed<N> && has_wide_multiply)
-struct NarrowRay<N> {
+struct RejectRay<N> {
     const Ray<N>& ray;
 
-    QRAY_INLINE constexpr explicit NarrowRay(const Ray<N>& r) : ray(r) {}
+    QRAY_INLINE constexpr explicit RejectRay(const Ray<N>& r) : ray(r) {}
 
     QRAY_INLINE constexpr bool misses_ball(const Point<N>& centre, typename N::Length radius) const
     {
@@ -128,10 +128,10 @@ private:
 // Where the exact test is as narrow: the perpendicular of sphere.hpp to one ulp, component by component.
 template <class N>
     requires NarrowFixed<N>
-struct NarrowRay<N> {
+struct RejectRay<N> {
     const Ray<N>& ray;
 
-    QRAY_INLINE constexpr explicit NarrowRay(const Ray<N>& r) : ray(r) {}
+    QRAY_INLINE constexpr explicit RejectRay(const Ray<N>& r) : ray(r) {}
 
     // `radius` is 3 more than the ball's: that much, b and the components are off, each downward by less than 1.
     QRAY_INLINE constexpr bool misses_ball(const Point<N>& centre, typename N::Length radius) const

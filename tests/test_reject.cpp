@@ -1,5 +1,5 @@
 // The narrow reject may turn away what a ray misses, and never what it meets.
-#include <qray/shape/narrow.hpp>
+#include <qray/shape/reject.hpp>
 
 #include "scene_helpers.hpp"
 #include "shape_helpers.hpp"
@@ -45,7 +45,7 @@ TYPED_TEST(NarrowTest, NoBallThatIsMetIsTurnedAway)
             typename N::Length t{};
             meets = SphereOf<N>(value(centre), value(radius), make_tag(0, 0), 0).hit(ray, N::length_max, t);
         }
-        const bool away = NarrowRay<N>(ray).misses_ball(centre, N::coarse_above(radius, 0));
+        const bool away = RejectRay<N>(ray).misses_ball(centre, N::coarse_above(radius, 0));
         met += meets;
         missed += !meets;
         turned_away += away;
@@ -97,7 +97,7 @@ TYPED_TEST(NarrowTest, NoTriangleThatIsMetAtACornerIsTurnedAway)
                 if (!intersect(shape, s.vertices.data, ray, N::length_max, t))
                     continue;
                 met++;
-                wrong += surely_missed(shape, NarrowRay<N>(ray));
+                wrong += surely_missed(shape, RejectRay<N>(ray));
             }
         };
         for (uint32_t k = 0; k < s.polygons.count; k++) {
@@ -135,7 +135,7 @@ TYPED_TEST(NarrowTest, NoPlaneThatIsMetIsTurnedAway)
         const Real num = dot(real(normal), real(centre) - real(ray.origin)), den = dot(real(normal), real(ray.direction));
         const bool meets = den != 0 && num / den > 0;
         met += meets;
-        wrong += meets && NarrowRay<N>(ray).misses_plane(centre, normal);
+        wrong += meets && RejectRay<N>(ray).misses_plane(centre, normal);
     }
     EXPECT_EQ(wrong, 0);
     EXPECT_GT(met, 50000);
@@ -154,7 +154,7 @@ TYPED_TEST(NarrowTest, MostOfWhatIsFarOffIsTurnedAwayWhereItPays)
         if (length(cross(v, real(ray.direction))) < 2)
             continue;
         missed++;
-        turned_away += NarrowRay<N>(ray).misses_ball(centre, N::coarse_above(M::length(1), 0));
+        turned_away += RejectRay<N>(ray).misses_ball(centre, N::coarse_above(M::length(1), 0));
     }
     if (N::is_fixed)
         EXPECT_EQ(turned_away, missed); // a whole length off is far more than 16 bits lose
