@@ -2,7 +2,6 @@
 #include "compile.hpp"
 #include "draw.hpp"
 #include "load.hpp"
-#include "plan.hpp"
 #include "stats.hpp"
 
 #include <stdio.h>
@@ -63,7 +62,5 @@ int main(int argc, char** argv)
     using namespace qray::cli;
     if (argc > 1 && strcmp(argv[1], "compile") == 0)
         return compile_main(argc - 1, argv + 1);
-    if (argc > 1 && strcmp(argv[1], "plan") == 0)
-        return plan_main(argc - 1, argv + 1);
     return draw_main(argc, argv);
 }

@@ -79,23 +79,6 @@ bool take_adaptive(Options& o, const char* value)
         && (comma == nullptr || share(comma + 1, o.settings.threshold));
 }
 
-bool positive(std::string_view text, double& value)
-{
-    double read = 0;
-    if (scene::read_number(text, read) != scene::NumberError::none || !(read > 0 && read <= 1e9))
-        return false;
-    value = read;
-    return true;
-}
-
-bool take_error(Options& o, const char* value)
-{
-    const std::string_view text(value);
-    if (text.ends_with("dB"))
-        return positive(text.substr(0, text.size() - 2), o.decibels);
-    return positive(text, o.levels);
-}
-
 bool take_name(Options& o, const char* value)
 {
     constexpr const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789";
@@ -106,8 +89,7 @@ bool take_name(Options& o, const char* value)
 
 constexpr unsigned draw = static_cast<unsigned>(Command::draw);
 constexpr unsigned compile = static_cast<unsigned>(Command::compile);
-constexpr unsigned plan = static_cast<unsigned>(Command::plan);
-constexpr unsigned all = draw | compile | plan;
+constexpr unsigned all = draw | compile;
 
 constexpr Option table[] = {
     {"-o", "FILE", draw, "the picture; '-' is standard output (default: SCENE.ppm in this folder)", "a name",
@@ -117,13 +99,13 @@ constexpr Option table[] = {
     {"--name", "NAME", compile, "the header's namespace (default: scene)",
      "a C++ name of at most 64 letters, digits and _", take_name},
     {"-s", "WxH", all, "size in pixels (default: the scene's own)", "WIDTHxHEIGHT, each from 1 to 32768", take_size},
-    {"-n", "NUMBER", draw | compile, "number system: q16, q32, float or double (default: q32)",
+    {"-n", "NUMBER", all, "number system: q16, q32, float or double (default: q32)",
      "q16, q32, float or double", take_number},
-    {"-r", "N", draw | compile, "samples a pixel: 1, 4, 9, 16 and so on (default: 1)", "a square number from 1 to 4096",
+    {"-r", "N", all, "samples a pixel: 1, 4, 9, 16 and so on (default: 1)", "a square number from 1 to 4096",
      take_samples},
-    {"-a", "LEVELS[,T]", draw | compile, "adaptive sampling: 1 to 6 levels, threshold 0 to 1 (default: 0.0625)",
+    {"-a", "LEVELS[,T]", all, "adaptive sampling: 1 to 6 levels, threshold 0 to 1 (default: 0.0625)",
      "LEVELS or LEVELS,THRESHOLD, from 1 to 6 and from 0 to 1", take_adaptive},
-    {"-d", "N", draw | compile, "depth of mirrored and refracted rays (default: 5)", "a whole number from 1 to 64",
+    {"-d", "N", all, "depth of mirrored and refracted rays (default: 5)", "a whole number from 1 to 64",
      [](Options& o, const char* v) { return whole(v, 1, scene::Settings::max_depth, o.settings.depth); }},
     {"--cutoff", "W", all, "weight below which rays are not traced (default: 0.0014)", "a number from 0 to 1",
      [](Options& o, const char* v) { return share(v, o.settings.cutoff); }},
@@ -131,16 +113,6 @@ constexpr Option table[] = {
      [](Options& o, const char* v) { return whole(v, 1, max_threads, o.threads); }},
     {"--stats", nullptr, draw, "say what was in the scene, and what drawing it took", nullptr,
      [](Options& o, const char*) { return o.stats = true; }},
-    {"--board", "NAME", plan, "the board, by its name in src/boards", "a name",
-     [](Options& o, const char* v) { return *(o.board = v) != 0; }},
-    {"--mhz", "F", plan, "its clock", "a number above 0, of MHz",
-     [](Options& o, const char* v) { return positive(v, o.mhz); }},
-    {"--seconds", "S", plan, "choose the most accurate setting that takes no longer", "a number above 0, of seconds",
-     [](Options& o, const char* v) { return positive(v, o.seconds); }},
-    {"--error", "E", plan, "choose the cheapest that is as accurate: 35dB, or 2 (levels of 255, rms)",
-     "a number above 0, of levels of 255, or of decibels with dB", take_error},
-    {"--check", nullptr, plan, "run what was chosen in an emulator, and show prediction and truth", nullptr,
-     [](Options& o, const char*) { return o.check = true; }},
     {"-q", nullptr, all, "no progress, no warnings", nullptr, [](Options& o, const char*) { return o.quiet = true; }},
 };
 static_assert(scene::Limits::resolution == 32768 && scene::Settings::max_grid == 64 && scene::Settings::max_depth == 64
@@ -162,10 +134,6 @@ void print_help(Command command)
         puts("usage: qray compile [options] SCENE\n"
              "Turns a scene ('-': standard input) into a C++ header, to be drawn without an operating system.\n");
         break;
-    case Command::plan:
-        puts("usage: qray plan [options] SCENE\n"
-             "Chooses number system, samples and depth for a scene on a board, by predicted time and error.\n");
-        break;
     }
     for (const Option& o : table)
         if (has(o, command))
@@ -175,21 +143,18 @@ void print_help(Command command)
     switch (command) {
     case Command::draw:
         puts("\nexample: qray scenes/showcase.nff -s 640x480 -r 4 -o picture.ppm\n"
-             "also: qray compile -h, qray plan -h\n"
+             "also: qray compile -h\n"
              "exit status: 0; 1: bad scene, or the picture cannot be written; 2: bad options");
         break;
     case Command::compile:
         puts("\nexample: qray compile scenes/showcase.nff -s 64x48 -n q32 -o showcase.hpp");
-        break;
-    case Command::plan:
-        puts("\nexample: qray plan scenes/showcase.nff --board microbit --mhz 48 --seconds 60 -s 160x128");
         break;
     }
 }
 
 const char* command_name(Command command)
 {
-    return command == Command::draw ? "qray" : command == Command::compile ? "qray compile" : "qray plan";
+    return command == Command::draw ? "qray" : "qray compile";
 }
 
 // "-s 64x48", "-s64x48", "--cutoff 0.1", "--cutoff=0.1"; `value` is null where none is in the argument itself.

@@ -1,4 +1,4 @@
-// The command line of qray, qray compile and qray plan: one table of options for all three.
+// The command line of qray and qray compile: one table of options for both.
 #pragma once
 
 #include "../scene/settings.hpp"
@@ -9,7 +9,7 @@ namespace qray::cli {
 enum class Number : uint8_t { q16, q32, single_float, double_float };
 constexpr const char* number_names[] = {"q16", "q32", "float", "double"};
 
-enum class Command : uint8_t { draw = 1, compile = 2, plan = 4 };
+enum class Command : uint8_t { draw = 1, compile = 2 };
 
 struct Options {
     const char* scene = nullptr;  // "-": standard input
@@ -20,11 +20,6 @@ struct Options {
     uint32_t threads = 0;     // 0: one for each processor
     bool stats = false, quiet = false;
     const char* name = "scene"; // qray compile: the namespace
-    // qray plan; 0 is what was not given
-    const char* board = nullptr;
-    double mhz = 0, seconds = 0;
-    double decibels = 0, levels = 0; // the accuracy asked for, one way or the other
-    bool check = false;
 };
 
 constexpr uint32_t max_threads = 256;

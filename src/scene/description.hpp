@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <qray/surface/material.hpp>
+#include <qray/scene/lists.hpp>
 
 #include "vec3d.hpp"
 

@@ -7,7 +7,6 @@
 #include "effect_names.hpp"
 #include "source.hpp"
 #include "storage.hpp"
-#include "window_builder.hpp"
 
 namespace qray::scene {
 
@@ -65,8 +64,6 @@ public:
     Emitter(const Storage<N>& from, Source& to) : s(from), out(to), e(from.effects)
     {
         e.tree = false; // it pays from some hundred shapes on, and takes a float a ray
-        if constexpr (!N::is_fixed)
-            e.windows = windows.build(from);
     }
 
     // `title` may be empty; `origin` says what the header was made from; `name` is of the namespace.
@@ -91,7 +88,6 @@ private:
     const Storage<N>& s;
     Source& out;
     Effects e;
-    WindowBuilder<N> windows;
 
     // Of the namespace's contents: FNV-1a, 64 bits.
     uint64_t digest() const
@@ -129,8 +125,6 @@ private:
             }
             out.put("};\n");
         });
-        if (e.windows)
-            all_windows();
         out.put("\ninline constexpr qray::Scene<Number, effects> scene{\n");
         camera();
         if (e.eye_surface)
@@ -146,14 +140,6 @@ private:
         if (e.adaptive) {
             member("levels", Single<uint8_t>{s.levels});
             member("threshold", Single<typename N::Unit>{s.threshold});
-        }
-        if (e.windows) {
-            out.print("    .windows = {{columns, rows, %s, ", e.sphere ? "blockers, octants" : "nullptr, nullptr");
-            if (windows.floor == Tag{Tag::none})
-                out.put("{qray::Tag::none}");
-            else
-                value(windows.floor);
-            out.put("}},\n");
         }
         for_each_table(s, e, [this](const auto& array, const char*, const char* name, const char*) {
             out.print("    .%s = {%s, %u},\n", name, name, static_cast<unsigned>(array.count));
@@ -191,51 +177,6 @@ private:
         out.put("        .width = width,\n        .height = height,\n");
         field("grid", grid);
         out.put("    },\n");
-    }
-
-    void set(uint32_t v) { out.print("0x%08x", static_cast<unsigned>(v)); }
-    void value(const Edge& v)
-    {
-        const auto& [at, changed] = v;
-        out.print("{%u, ", static_cast<unsigned>(at));
-        set(changed);
-        out.put("}");
-    }
-    void all_windows()
-    {
-        const auto edges = [this](const char* name, const auto& array) {
-            out.print("inline constexpr qray::Edge %s[] = {\n", name);
-            for (uint32_t i = 0; i < array.count; i++) {
-                out.put(i % 4 == 0 ? "    " : " ");
-                value(array.data[i]);
-                out.put(i % 4 == 3 || i + 1 == array.count ? ",\n" : ",");
-            }
-            out.put("};\n");
-        };
-        const auto sets = [this](const uint32_t* from, uint32_t count) {
-            for (uint32_t i = 0; i < count; i++) {
-                out.put(i == 0 ? "{" : ", ");
-                set(from[i]);
-            }
-            out.put("}");
-        };
-        out.put("\n// windows: from a column or row on, what changes of what the eye's rays may meet, what they may mirrored in "
-                "the floor,\n// and what is before a light there; 10 bits each, from the highest: spheres, cones, polygons, "
-                "patches, discs\n");
-        edges("columns", windows.columns);
-        edges("rows", windows.rows);
-        if (e.sphere) {
-            out.put("// by sphere: what may be before a light; the same three sets for rays into each octant\n"
-                    "inline constexpr qray::ShapeSet blockers[] = ");
-            sets(windows.blockers, s.spheres.count);
-            out.put(";\ninline constexpr uint32_t octants[][8] = {\n");
-            for (uint32_t i = 0; i < s.spheres.count; i++) {
-                out.put("    ");
-                sets(windows.octants[i], 8);
-                out.put(",\n");
-            }
-            out.put("};\n");
-        }
     }
 
     template <class T>

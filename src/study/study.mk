@@ -5,7 +5,7 @@
 STUDY := src/study
 
 # The desktop's part: the command's own kernels.
-MEASURE := build/study/measure build/study/operations
+MEASURE := build/study/measure
 build/study/%: build/obj/$(STUDY)/%.o $(filter-out %/main.o,$(COMMAND))
 	@mkdir -p $(@D)
 	@$(CXX) $(OPTIMISE) $(STATIC) $^ -pthread -o $@

@@ -11,4 +11,12 @@ struct Sun {
     Rgb<N> colour;
 };
 
+template <class N>
+QRAY_INLINE constexpr bool towards(const Sun<N>& sun, const Point<N>&, Direction<N>& l, typename N::Length& distance)
+{
+    l = sun.from;
+    distance = N::length_max;
+    return true;
+}
+
 } // namespace qray

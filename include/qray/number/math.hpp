@@ -165,12 +165,17 @@ constexpr uint32_t isqrt_by_rsqrt(uint64_t x)
 } // namespace detail
 
 // The integer nearest to sqrt(x), saturating at 2^32 - 1. Faster below 2^58.
-constexpr uint32_t isqrt(uint64_t x)
+QRAY_INLINE constexpr uint32_t isqrt(uint64_t x)
+{
+    return detail::isqrt_by_rsqrt(x);
+}
+// The same for x >= 0.
+QRAY_INLINE constexpr uint32_t isqrt(int64_t x)
 {
     if constexpr (has_double_sqrt)
-        if (!__builtin_is_constant_evaluated() && x >> 63 == 0)
-            return isqrt_by_double(static_cast<int64_t>(x));
-    return detail::isqrt_by_rsqrt(x);
+        if (!__builtin_is_constant_evaluated())
+            return isqrt_by_double(x);
+    return detail::isqrt_by_rsqrt(static_cast<uint64_t>(x));
 }
 
 // The integer nearest to sqrt(x); at most 2^16.

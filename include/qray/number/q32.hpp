@@ -52,9 +52,9 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
     QRAY_INLINE static constexpr Length coarse_above(Length a, int32_t fine) { return {(a.raw >> fine) + 3}; }
 
     // Square roots to the nearest; the radicand must not be negative.
-    static constexpr Length sqrt(Area a) { return {static_cast<int32_t>(isqrt(static_cast<uint64_t>(a.raw)))}; }
+    static constexpr Length sqrt(Area a) { return {static_cast<int32_t>(isqrt(a.raw))}; }
     static constexpr Length root(Area a) { return sqrt(a); }
-    static constexpr Unit sqrt_unit(Cosine a) { return {static_cast<int32_t>(isqrt(static_cast<uint64_t>(a.raw)))}; }
+    static constexpr Unit sqrt_unit(Cosine a) { return {static_cast<int32_t>(isqrt(a.raw))}; }
 
     // sqrt(b^2 - a c) for |a| < 1/8, |b| < 2^8, |c| < 2^14, or false where that is negative. Block-scaled: b
     // to 30 bits, a and c to 61 together, the longer of them first.
@@ -71,7 +71,7 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
         const int64_t d = scaled * scaled - (a.raw >> of_a) * (c.raw >> (2 * drop - of_a));
         if (d < 0)
             return false;
-        root = {static_cast<int64_t>(static_cast<uint64_t>(isqrt(static_cast<uint64_t>(d))) << drop)};
+        root = {static_cast<int64_t>(static_cast<uint64_t>(isqrt(d)) << drop)};
         return true;
     }
     // sqrt(a b) to 2 ulp of a Unit and a Length, or 0 and false where that is negative.

@@ -65,7 +65,7 @@ constexpr bool stands_out(typename Sample<N>::Level own, typename Sample<N>::Lev
 
 // (x, y) is the pixel's corner, and the camera's grid 2^levels.
 template <class N, Effects E, class Count>
-constexpr Pixel adaptive_pixel(const Scene<N, E>& scene, int32_t x, int32_t y, Sight<E.windows> sight, Count& count)
+constexpr Pixel adaptive_pixel(const Scene<N, E>& scene, int32_t x, int32_t y, Count& count)
 {
     const int levels = scene.levels.value;
     WeightedSum<N> sum;
@@ -80,7 +80,7 @@ constexpr Pixel adaptive_pixel(const Scene<N, E>& scene, int32_t x, int32_t y, S
         const int32_t step = int32_t{1} << half >> 1;
         for (int k = 0; k < 4; k++) {
             const Pencil<N> row = scene.camera.row(y + (k & 2 ? v + step : v - step));
-            own[k] = sample(scene, row + scene.camera.right * (x + (k & 1 ? u + step : u - step)), sight, count);
+            own[k] = sample(scene, row + scene.camera.right * (x + (k & 1 ? u + step : u - step)), count);
         }
         const Sample<N> all{own[0].r + own[1].r + own[2].r + own[3].r,
                             own[0].g + own[1].g + own[2].g + own[3].g,

@@ -42,14 +42,14 @@ struct SampleSum<N> {
 };
 
 template <class N, Effects E, class Count>
-constexpr Pixel grid_pixel(const Scene<N, E>& scene, int32_t x, int32_t y, Sight<E.windows> sight, Count& count)
+constexpr Pixel grid_pixel(const Scene<N, E>& scene, int32_t x, int32_t y, Count& count)
 {
     const uint32_t n = scene.camera.grid;
     SampleSum<N> sum;
     for (uint32_t k = 0; k < n; k++) {
         const Pencil<N> row = scene.camera.row(y + static_cast<int32_t>(2 * k));
         for (uint32_t i = 0; i < n; i++)
-            sum.add(sample(scene, row + scene.camera.right * (x + static_cast<int32_t>(2 * i)), sight, count));
+            sum.add(sample(scene, row + scene.camera.right * (x + static_cast<int32_t>(2 * i)), count));
     }
     return pixel_of(sum.mean(n * n));
 }

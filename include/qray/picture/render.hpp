@@ -7,10 +7,9 @@
 
 namespace qray {
 
-// A pixel whose sight is known, as in a row it is from the pixel before.
+// Pixel (i, j), i from the left, j from the top.
 template <class N, Effects E, class Count>
-constexpr Pixel pixel_in_row(const Scene<N, E>& scene, uint32_t i, uint32_t j, [[maybe_unused]] Sight<E.windows> sight,
-                             Count& count)
+constexpr Pixel render_pixel(const Scene<N, E>& scene, uint32_t i, uint32_t j, Count& count)
 {
     const Camera<N>& c = scene.camera;
     const int32_t n = c.grid;
@@ -18,21 +17,13 @@ constexpr Pixel pixel_in_row(const Scene<N, E>& scene, uint32_t i, uint32_t j, [
     const int32_t y = 2 * n * static_cast<int32_t>(j) + 1 - n * c.height;
     if constexpr (E.adaptive)
         if (!E.grid || scene.levels.value != 0)
-            return adaptive_pixel(scene, x - 1, y - 1, sight, count);
+            return adaptive_pixel(scene, x - 1, y - 1, count);
     if constexpr (E.grid)
-        return grid_pixel(scene, x, y, sight, count);
-    else if constexpr (in_lanes<N>)
-        return pixel_at(scene, c.row(y) + c.right * x, count);
+        return grid_pixel(scene, x, y, count);
     else
-        return pixel_of(sample(scene, c.row(y) + c.right * x, sight, count));
+        return pixel_at(scene, c.row(y) + c.right * x, count);
 }
 
-// Pixel (i, j), i from the left, j from the top.
-template <class N, Effects E, class Count>
-constexpr Pixel render_pixel(const Scene<N, E>& scene, uint32_t i, uint32_t j, Count& count)
-{
-    return pixel_in_row(scene, i, j, Sweep<E.windows>(scene, j).at(i), count);
-}
 template <class N, Effects E>
 constexpr Pixel render_pixel(const Scene<N, E>& scene, uint32_t i, uint32_t j)
 {
@@ -44,9 +35,8 @@ constexpr Pixel render_pixel(const Scene<N, E>& scene, uint32_t i, uint32_t j)
 template <class Format, class N, Effects E, class Count>
 constexpr void render_row(const Scene<N, E>& scene, uint32_t j, uint8_t* out, Count& count)
 {
-    [[maybe_unused]] Sweep<E.windows> sweep(scene, j);
     for (uint32_t i = 0; i < scene.camera.width; i++)
-        Format::put(pixel_in_row(scene, i, j, sweep.at(i), count), out + i * Format::bytes);
+        Format::put(render_pixel(scene, i, j, count), out + i * Format::bytes);
 }
 template <class Format, class N, Effects E>
 constexpr void render_row(const Scene<N, E>& scene, uint32_t j, uint8_t* out)

@@ -13,7 +13,7 @@ struct Sample {
     static constexpr Level one = uint32_t{1} << frac;
     Level r, g, b;
 
-    static constexpr Level clamped_light(typename N::Colour c, int exposure) { return clamped(c, exposure); }
+    // Light is never negative.
     static constexpr Level clamped(typename N::Colour c, int exposure)
     {
         const int32_t limit = (int32_t{1} << N::Colour::frac) >> exposure;
@@ -36,13 +36,8 @@ struct Sample<N> {
     static constexpr Level one = 1;
     Level r, g, b;
 
+    // Light is never negative: of float in the order of its bits.
     static constexpr Level clamped(Level c, int)
-    {
-        const Level v = c > 0 ? c : Level(0);
-        return v < one ? v : one;
-    }
-    // The same of light, which is never negative: of float in the order of its bits.
-    static constexpr Level clamped_light(Level c, int)
     {
         if constexpr (sizeof(Level) == 4) {
             const int32_t bits = __builtin_bit_cast(int32_t, c), most = __builtin_bit_cast(int32_t, one);
@@ -68,18 +63,11 @@ QRAY_INLINE constexpr Ray<N> eye_ray(const Scene<N, E>& scene, const Pencil<N>& 
 }
 
 template <class N, Effects E, class Count>
-constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, [[maybe_unused]] Sight<E.windows> sight,
-                           Count& count)
+constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, Count& count)
 {
-    Rgb<N> c = scene.background;
-    if constexpr (!E.windows)
-        c = trace(scene, eye_ray(scene, at), count);
-    else if (sight.is_empty())
-        count(RayKind::camera);
-    else
-        c = trace(scene, eye_ray(scene, at), count, sight);
-    return {Sample<N>::clamped_light(c.x, scene.exposure), Sample<N>::clamped_light(c.y, scene.exposure),
-            Sample<N>::clamped_light(c.z, scene.exposure)};
+    const Rgb<N> c = trace(scene, eye_ray(scene, at), count);
+    return {Sample<N>::clamped(c.x, scene.exposure), Sample<N>::clamped(c.y, scene.exposure),
+            Sample<N>::clamped(c.z, scene.exposure)};
 }
 
 struct Pixel {
@@ -92,7 +80,12 @@ constexpr Pixel pixel_of(const Sample<N>& s)
     return {Sample<N>::byte(s.r), Sample<N>::byte(s.g), Sample<N>::byte(s.b)};
 }
 
-// Of one sample, where vectors are in lanes.
+// The pixel of one sample: of its parts, or of its register at once.
+template <InParts N, Effects E, class Count>
+QRAY_INLINE constexpr Pixel pixel_at(const Scene<N, E>& scene, const Pencil<N>& at, Count& count)
+{
+    return pixel_of(sample(scene, at, count));
+}
 template <class N, Effects E, class Count>
 QRAY_INLINE Pixel pixel_at(const Scene<N, E>& scene, const Pencil<N>& at, Count& count)
 {

@@ -2,67 +2,46 @@
 // nor stored.
 #pragma once
 
-#include <stdint.h>
+#include "lists.hpp"
 
 namespace qray {
 
 struct Effects {
-    // shapes (a plane is a disc)
-    bool sphere = false, disc = false, cone = false, polygon = false, patch = false;
-    // textures
-    bool checker = false, stripes = false, gradient = false, rings = false, noise = false;
-    bool marble = false, wood = false, brick = false;
-    // light
-    bool light = false, sun = false;
-    bool shadow = false;      // light can be blocked
-    bool see_through = false; // and a surface in its way may let some of it through
-    bool highlight = false;
-    bool fractional_shine = false;
-    // rays of higher depth
-    bool mirror = false, transmit = false;
-    bool eye_surface = false; // the eye lies on a surface
-    // sampling: several samples a pixel, on a grid or adaptively
-    bool grid = false, adaptive = false;
-    bool windows = false; // the pixels in which a shape may be met are known
-    bool tree = false;    // over the shapes
+#define QRAY_EFFECT(Type, name, table) bool name = false;
+    QRAY_EFFECTS(QRAY_EFFECT)
+#undef QRAY_EFFECT
     // entries of the tracer's stack: the greatest max depth. Only transmit has a stack.
     uint8_t depth = 5;
 
-    constexpr int shapes() const { return sphere + disc + cone + polygon + patch; }
-    constexpr bool texture() const
-    {
-        return checker || stripes || gradient || rings || noise || marble || wood || brick;
-    }
+#define QRAY_COUNT(Type, name, table) +name
+    constexpr int shapes() const { return QRAY_SHAPES(QRAY_COUNT); }
+    constexpr bool texture() const { return (QRAY_TEXTURES(QRAY_COUNT)) != 0; }
+    constexpr bool lights() const { return (QRAY_LIGHTS(QRAY_COUNT)) != 0; }
+#undef QRAY_COUNT
+#define QRAY_ANY(Type, name, table) || (name && Type<Float>::has_corners)
+    constexpr bool corners() const { return false QRAY_SHAPES(QRAY_ANY); }
+#undef QRAY_ANY
+#define QRAY_ANY(Type, name, table) || (name && Type<Float>::is_smooth)
+    constexpr bool smooth() const { return false QRAY_SHAPES(QRAY_ANY); }
+#undef QRAY_ANY
     constexpr bool spawns() const { return mirror || transmit; }
-    constexpr bool lights() const { return light || sun; }
+    constexpr bool transmits() const { return transmit || see_through; }
+    constexpr bool always() const { return true; }
 
     // Can a tracer for this set draw a scene that calls for `other`?
-    constexpr bool holds(const Effects& other) const;
+#define QRAY_COVERS(Type, name, table) && (name || !other.name)
+    constexpr bool holds(const Effects& other) const { return depth >= other.depth QRAY_EFFECTS(QRAY_COVERS); }
+#undef QRAY_COVERS
     friend constexpr bool operator==(const Effects&, const Effects&) = default;
 };
 
-constexpr bool Effects::holds(const Effects& o) const
-{
-    const auto covers = [](bool have, bool want) { return have || !want; };
-    return covers(sphere, o.sphere) && covers(disc, o.disc) && covers(cone, o.cone) && covers(polygon, o.polygon)
-        && covers(patch, o.patch) && covers(checker, o.checker) && covers(stripes, o.stripes)
-        && covers(gradient, o.gradient) && covers(rings, o.rings) && covers(noise, o.noise)
-        && covers(marble, o.marble) && covers(wood, o.wood) && covers(brick, o.brick) && covers(light, o.light)
-        && covers(sun, o.sun) && covers(shadow, o.shadow) && covers(see_through, o.see_through)
-        && covers(highlight, o.highlight) && covers(fractional_shine, o.fractional_shine)
-        && covers(mirror, o.mirror) && covers(transmit, o.transmit) && covers(eye_surface, o.eye_surface)
-        && covers(grid, o.grid) && covers(adaptive, o.adaptive)
-        && covers(windows, o.windows) && covers(tree, o.tree) && depth >= o.depth;
-}
-
-// The set of everything but windows, which only a compiled scene has; shadows are on.
+// The set of everything; shadows are on.
 constexpr Effects everything(uint8_t depth)
 {
     Effects e;
-    e.sphere = e.disc = e.cone = e.polygon = e.patch = true;
-    e.checker = e.stripes = e.gradient = e.rings = e.noise = e.marble = e.wood = e.brick = true;
-    e.light = e.sun = e.shadow = e.see_through = e.highlight = e.fractional_shine = true;
-    e.mirror = e.transmit = e.eye_surface = e.grid = e.adaptive = e.tree = true;
+#define QRAY_TAKE(Type, name, table) e.name = true;
+    QRAY_EFFECTS(QRAY_TAKE)
+#undef QRAY_TAKE
     e.depth = depth;
     return e;
 }

@@ -21,6 +21,8 @@ namespace qray {
 
 template <class N>
 struct Cone {
+    static constexpr bool has_corners = false, is_curved = true, is_smooth = false, is_short = false;
+
     Point<N> middle;            // of the axis
     Direction<N> e1, e2, axis;  // orthonormal; the axis points to the end b
     typename N::Length rho0;    // cosine * mean radius, times 2^fine
@@ -179,8 +181,8 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
 
 // The nearest t in (0, limit], or false.
 template <bool Near = false, class N>
-constexpr bool intersect(const Cone<N>& s, const Ray<N>& ray, typename N::Length limit, typename N::Length& t,
-                         Local<N>& local)
+QRAY_INLINE constexpr bool intersect(const Cone<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length limit,
+                                     typename N::Length& t, Local<N>& local)
 {
     typename N::Length both[2]{}, tau[2]{};
     if (meetings(s, ray, limit, both, local, tau) == 0)
@@ -192,7 +194,7 @@ constexpr bool intersect(const Cone<N>& s, const Ray<N>& ray, typename N::Length
 
 // How often the ray crosses the frustum strictly between its origin and a light at `distance`: 0, 1 or 2.
 template <bool Near = false, class N>
-constexpr int crossings(const Cone<N>& s, const Ray<N>& ray, typename N::Length distance)
+QRAY_INLINE constexpr int crossings(const Cone<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length distance)
 {
     const auto limit = distance - N::light_clearance;
     typename N::Length t[2]{}, tau[2]{};
@@ -205,10 +207,10 @@ constexpr int crossings(const Cone<N>& s, const Ray<N>& ray, typename N::Length 
 // surface along it: where a ray grazes, or is nearly parallel to a generator, its t alone would leave that
 // some ulp off.
 template <class N>
-constexpr void surface_of(const Cone<N>& s, const Local<N>& local, const Direction<N>& d, Point<N>& point,
-                          Direction<N>& n)
+constexpr void surface_of(const Cone<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length, const Local<N>& local,
+                          Point<N>& point, Direction<N>& n)
 {
-    const Point<N> w = local.near + along<N>(local.along, d);
+    const Point<N> w = local.near + along<N>(local.along, ray.direction);
     const auto z = N::length(dot<N>(w, s.axis));
     const Point<N> across = w - along<N>(z, s.axis);
     const auto rho = s.rho0 + N::length(s.sine * z);

@@ -9,6 +9,8 @@ namespace qray {
 
 template <class N>
 struct Disc {
+    static constexpr bool has_corners = false, is_curved = false, is_smooth = false, is_short = false;
+
     Point<N> centre;
     Direction<N> normal; // unit
     typename N::Length radius;
@@ -22,9 +24,9 @@ QRAY_INLINE constexpr bool surely_missed(const Disc<N>& s, const RejectRay<N>& r
 }
 
 // t in (0, limit], or false. The disc that the ray starts on does not count.
-template <class N>
-QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typename N::Length limit,
-                                     typename N::Length& t)
+template <bool Near = false, class N>
+QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length limit,
+                                     typename N::Length& t, Local<N>&)
 {
     if (ray.from == s.tag)
         return false;
@@ -37,17 +39,21 @@ QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typena
 }
 
 // How often the ray crosses the disc strictly between its origin and a light at `distance`: 0 or 1.
-template <class N>
-QRAY_INLINE constexpr int crossings(const Disc<N>& s, const Ray<N>& ray, typename N::Length distance)
+template <bool Near = false, class N>
+QRAY_INLINE constexpr int crossings(const Disc<N>& s, const Corners<N>& corners, const Ray<N>& ray,
+                                    typename N::Length distance)
 {
     typename N::Length t{};
-    return intersect(s, ray, distance, t) && before_light<N>(s.normal, ray, t, distance);
+    Local<N> local{};
+    return intersect(s, corners, ray, distance, t, local) && before_light<N>(s.normal, ray, t, distance);
 }
 
 template <class N>
-QRAY_INLINE constexpr Direction<N> normal_at(const Disc<N>& s)
+QRAY_INLINE constexpr void surface_of(const Disc<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length t,
+                                      const Local<N>&, Point<N>& point, Direction<N>& n)
 {
-    return s.normal;
+    n = s.normal;
+    point = on_plane<N>(s.centre, n, ray.origin + along<N>(t, ray.direction));
 }
 
 } // namespace qray

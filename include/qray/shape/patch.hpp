@@ -8,6 +8,8 @@ namespace qray {
 
 template <class N>
 struct Patch {
+    static constexpr bool has_corners = true, is_curved = false, is_smooth = true, is_short = false;
+
     Direction<N> normal;      // g of the triangle, unit
     Point<N> middle;          // of a ball that holds the triangle
     typename N::Length bound; // its radius
@@ -23,30 +25,45 @@ QRAY_INLINE constexpr bool surely_missed(const Patch<N>& s, const RejectRay<N>& 
 
 // t in (0, limit], or false. The triangle that the ray starts on does not count.
 template <class N>
-constexpr bool intersect(const Patch<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length limit,
-                         typename N::Length& t)
+constexpr bool meets(const Patch<N>& s, const Point<N>* corners, const Ray<N>& ray, typename N::Length limit,
+                     typename N::Length& t)
 {
     if (ray.from == s.tag)
         return false;
-    const auto corner = [&s, vertices, &ray](uint32_t i) {
-        return vertices[i == 0 ? s.first : s.second + i - 1] - ray.origin;
+    const auto corner = [&s, corners, &ray](uint32_t i) {
+        return corners[i == 0 ? s.first : s.second + i - 1] - ray.origin;
     };
     return intersect_corners<N>(s.normal, 3, corner, ray, limit, t);
 }
 
 // How often the ray crosses it strictly between its origin and a light at `distance`: 0 or 1.
-template <class N>
-constexpr int crossings(const Patch<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length distance)
+template <bool Near = false, class N>
+QRAY_INLINE constexpr bool intersect(const Patch<N>& s, const Corners<N>& corners, const Ray<N>& ray,
+                                     typename N::Length limit, typename N::Length& t, Local<N>&)
+{
+    return meets(s, corners.points, ray, limit, t);
+}
+
+template <bool Near = false, class N>
+QRAY_INLINE constexpr int crossings(const Patch<N>& s, const Corners<N>& corners, const Ray<N>& ray, typename N::Length distance)
 {
     typename N::Length t{};
-    return intersect(s, vertices, ray, distance, t) && before_light<N>(s.normal, ray, t, distance);
+    return meets(s, corners.points, ray, distance, t) && before_light<N>(s.normal, ray, t, distance);
+}
+
+template <class N>
+QRAY_INLINE constexpr void surface_of(const Patch<N>& s, const Corners<N>& corners, const Ray<N>& ray, typename N::Length t,
+                                      const Local<N>&, Point<N>& point, Direction<N>& n)
+{
+    n = s.normal;
+    point = on_plane<N>(corners.points[s.first], n, ray.origin + along<N>(t, ray.direction));
 }
 
 // The shading normal where the ray meets the triangle: unit, not yet turned; g where the blend vanishes.
 template <class N>
-constexpr Direction<N> shading_normal(const Patch<N>& s, const Point<N>* vertices, const Direction<N>* normals,
-                                      const Ray<N>& ray)
+constexpr Direction<N> shading_normal(const Patch<N>& s, const Corners<N>& corners, const Ray<N>& ray)
 {
+    const auto& [vertices, normals] = corners;
     const Shear<N> shear(ray.direction);
     const Sheared<N> a = shear(vertices[s.first] - ray.origin);
     const Sheared<N> b = shear(vertices[s.second] - ray.origin);

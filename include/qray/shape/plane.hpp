@@ -1,7 +1,7 @@
 // Where a ray meets a plane: for all flat surfaces.
 #pragma once
 
-#include "../vector/ray.hpp"
+#include "shape.hpp"
 
 namespace qray {
 
@@ -25,6 +25,37 @@ QRAY_INLINE constexpr bool intersect_plane(typename N::Moment num, typename N::C
         t = num / den; // infinite is beyond the limit
         return t > N::length_zero && t <= limit;
     }
+}
+
+// Where a ray meets a polygon. Corners that are not quite in one plane let a ray almost along it meet it far
+// outside the world, where differences of points would overflow: such a point is put back to the edge.
+template <class N>
+QRAY_INLINE constexpr Point<N> in_world(const Ray<N>& ray, typename N::Length t)
+{
+    const Point<N> a = along<N>(t, ray.direction), o = ray.origin;
+    if constexpr (N::is_fixed) {
+        using Length = typename N::Length;
+        const auto sum = [](Length u, Length v) {
+            constexpr Length edge{int32_t{64} << Length::frac};
+            return v > edge - u ? edge : v < -edge - u ? -edge : u + v;
+        };
+        return {sum(o.x, a.x), sum(o.y, a.y), sum(o.z, a.z)};
+    } else {
+        return o + a;
+    }
+}
+
+// A hit q on the plane through c: moved onto it where its error, which is that of t, is more than some ulp.
+template <class N>
+QRAY_INLINE constexpr Point<N> on_plane([[maybe_unused]] const Point<N>& c, [[maybe_unused]] const Direction<N>& normal,
+                                        const Point<N>& q)
+{
+    if constexpr (!N::is_fixed)
+        return q - along_normal<N>(dot_normal<N>(q - c, normal), normal);
+    else if constexpr (NarrowFixed<N>)
+        return q - along<N>(N::length(dot<N>(q - c, normal)), normal);
+    else
+        return q;
 }
 
 // Is a crossing of a plane at t before a light at `distance`, and not at it? Measured across the plane, so that a

@@ -8,6 +8,8 @@ namespace qray {
 
 template <class N>
 struct Polygon {
+    static constexpr bool has_corners = true, is_curved = false, is_smooth = false, is_short = false;
+
     Direction<N> normal;       // g, unit
     Point<N> middle;           // of a ball that holds all corners
     typename N::Length bound;  // its radius
@@ -23,28 +25,37 @@ QRAY_INLINE constexpr bool surely_missed(const Polygon<N>& s, const RejectRay<N>
 
 // t in (0, limit], or false. The polygon that the ray starts on does not count.
 template <class N>
-constexpr bool intersect(const Polygon<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length limit,
-                         typename N::Length& t)
+constexpr bool meets(const Polygon<N>& s, const Point<N>* corners, const Ray<N>& ray, typename N::Length limit,
+                     typename N::Length& t)
 {
     if (ray.from == s.tag)
         return false;
-    const Point<N>* first = vertices + s.first;
+    const Point<N>* first = corners + s.first;
     const auto corner = [first, &ray](uint32_t i) { return first[i] - ray.origin; };
     return intersect_corners<N>(s.normal, s.count, corner, ray, limit, t);
 }
 
 // How often the ray crosses it strictly between its origin and a light at `distance`: 0 or 1.
-template <class N>
-constexpr int crossings(const Polygon<N>& s, const Point<N>* vertices, const Ray<N>& ray, typename N::Length distance)
+template <bool Near = false, class N>
+QRAY_INLINE constexpr bool intersect(const Polygon<N>& s, const Corners<N>& corners, const Ray<N>& ray,
+                                     typename N::Length limit, typename N::Length& t, Local<N>&)
+{
+    return meets(s, corners.points, ray, limit, t);
+}
+
+template <bool Near = false, class N>
+QRAY_INLINE constexpr int crossings(const Polygon<N>& s, const Corners<N>& corners, const Ray<N>& ray, typename N::Length distance)
 {
     typename N::Length t{};
-    return intersect(s, vertices, ray, distance, t) && before_light<N>(s.normal, ray, t, distance);
+    return meets(s, corners.points, ray, distance, t) && before_light<N>(s.normal, ray, t, distance);
 }
 
 template <class N>
-QRAY_INLINE constexpr Direction<N> normal_at(const Polygon<N>& s)
+QRAY_INLINE constexpr void surface_of(const Polygon<N>& s, const Corners<N>& corners, const Ray<N>& ray,
+                                      typename N::Length t, const Local<N>&, Point<N>& point, Direction<N>& n)
 {
-    return s.normal;
+    n = s.normal;
+    point = on_plane<N>(corners.points[s.first], n, in_world(ray, t));
 }
 
 } // namespace qray

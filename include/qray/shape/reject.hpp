@@ -4,7 +4,7 @@
 // that it meets: the bounds below are what the roundings can amount to.
 #pragma once
 
-#include "../vector/ray.hpp"
+#include "shape.hpp"
 
 namespace qray {
 

@@ -12,6 +12,8 @@ namespace qray {
 
 template <class N>
 struct Sphere {
+    static constexpr bool has_corners = false, is_curved = true, is_smooth = false, is_short = true;
+
     Point<N> centre;
     typename N::Length radius;        // > 0, times 2^fine
     typename N::Scale inverse_radius; // of that
@@ -63,7 +65,7 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
 
 // The nearest t in (0, limit], or false. t is within 2 ulp of the hit of the ray as given, more where it grazes.
 template <bool Near = false, class N>
-QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Ray<N>& ray, typename N::Length limit,
+QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length limit,
                                      typename N::Length& t, Local<N>& local)
 {
     const Leaves leaving = leaves(ray, s.tag);
@@ -91,7 +93,8 @@ QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Ray<N>& ray, type
 
 // How often the ray crosses the sphere strictly between its origin and a light at `distance`: 0, 1 or 2.
 template <bool Near = false, class N>
-QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Ray<N>& ray, typename N::Length distance)
+QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Corners<N>&, const Ray<N>& ray,
+                                    typename N::Length distance)
 {
     const Leaves leaving = leaves(ray, s.tag);
     if (leaving == Leaves::outward)
@@ -114,13 +117,13 @@ QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Ray<N>& ray, typen
 // The outward unit normal at a hit, and the point: centre + r n, which lies on the sphere to 1 ulp however
 // far the ray has come and whatever its direction's length.
 template <class N>
-QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Local<N>& local, const Direction<N>& d, Point<N>& point,
-                                      Direction<N>& n)
+QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length,
+                                      const Local<N>& local, Point<N>& point, Direction<N>& n)
 {
     auto from_near = local.along;
     if constexpr (NarrowFixed<N>) // the middle was rounded to a coarse ulp, and `near` is off by that along the ray
-        from_near = from_near - N::length(dot<N>(local.near, d));
-    const Point<N> w = local.near + along<N>(from_near, d);
+        from_near = from_near - N::length(dot<N>(local.near, ray.direction));
+    const Point<N> w = local.near + along<N>(from_near, ray.direction);
     // An error of |d| shows in |w|, and between mirrors would grow from one to the next: so made unit again.
     n = ratio<N>(w, s.inverse_radius);
     sharpen<N>(n);

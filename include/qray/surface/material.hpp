@@ -13,11 +13,4 @@ struct Matte {
     typename N::Unit diffuse;
 };
 
-// Which texture, if any: the kinds' own tables hold it.
-enum class TextureKind : uint8_t { none, checker, stripes, gradient, rings, noise, marble, wood, brick };
-struct TextureRef {
-    TextureKind kind;
-    uint16_t index;
-};
-
 } // namespace qray

@@ -28,12 +28,11 @@ struct Veils {
     }
 };
 
-// The share of light that comes through all surfaces of a set strictly between the ray's origin and `distance`:
+// The share of light that comes through all surfaces strictly between the ray's origin and `distance`:
 // multiplied in the order of their places, so that rounding does not depend on the order in which they are
 // found.
 template <class N, Effects E>
-QRAY_INLINE constexpr typename N::Unit light_through_set(const Scene<N, E>& scene, const Ray<N>& ray,
-                                                         typename N::Length distance, ShapeSet set)
+constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance)
 {
     auto through = N::one;
     const auto amount = [&scene](Tag tag) { return scene.transmits[tag.material()].amount; };
@@ -42,10 +41,10 @@ QRAY_INLINE constexpr typename N::Unit light_through_set(const Scene<N, E>& scen
     for (;;) {
         Veils found;
         bool blocked = false;
-        for_each_candidate(scene, ray, set, [distance] { return distance; }, [&](const auto& shape, Kind, uint32_t) {
+        for_each_candidate(scene, ray, [distance] { return distance; }, [&](const auto& shape, Kind, uint32_t) {
             if (!first && shape.tag.place() <= last)
                 return false;
-            const int times = crossings_in(scene, shape, ray, distance);
+            const int times = crossings<!E.tree>(shape, corners_of(scene), ray, distance);
             if (times != 0) {
                 blocked = amount(shape.tag) == N::zero;
                 found.add({shape.tag, times});
@@ -62,18 +61,6 @@ QRAY_INLINE constexpr typename N::Unit light_through_set(const Scene<N, E>& scen
         first = false;
         last = found.veils[found.count - 1].tag.place();
     }
-}
-
-template <class N, Effects E>
-constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance)
-{
-    return light_through_set(scene, ray, distance, every_shape);
-}
-template <class N, Effects E>
-constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance,
-                                         ShapeSet set)
-{
-    return light_through_set(scene, ray, distance, set);
 }
 
 } // namespace qray

@@ -14,86 +14,32 @@ struct NoCount {
     constexpr void operator()(RayKind) const {}
 };
 
-// Where a ray meets a polygon. Corners that are not quite in one plane let a ray almost along it meet it far
-// outside the world, where differences of points would overflow: such a point is put back to the edge.
-template <class N>
-QRAY_INLINE constexpr Point<N> in_world(const Ray<N>& ray, typename N::Length t)
-{
-    const Point<N> a = along<N>(t, ray.direction), o = ray.origin;
-    if constexpr (N::is_fixed) {
-        using Length = typename N::Length;
-        const auto sum = [](Length u, Length v) {
-            constexpr Length edge{int32_t{64} << Length::frac};
-            return v > edge - u ? edge : v < -edge - u ? -edge : u + v;
-        };
-        return {sum(o.x, a.x), sum(o.y, a.y), sum(o.z, a.z)};
-    } else {
-        return o + a;
-    }
-}
-
-// A hit q on the plane through c: moved onto it where its error, which is that of t, is more than some ulp.
-template <class N>
-QRAY_INLINE constexpr Point<N> on_plane([[maybe_unused]] const Point<N>& c, [[maybe_unused]] const Direction<N>& normal,
-                                        const Point<N>& q)
-{
-    if constexpr (!N::is_fixed)
-        return q - along_normal<N>(dot_normal<N>(q - c, normal), normal);
-    else if constexpr (NarrowFixed<N>)
-        return q - along<N>(N::length(dot<N>(q - c, normal)), normal);
-    else
-        return q;
-}
-
-// The point, and the outward geometric normal there.
+// Has a surface of this kind shading normals of its own? What is none of the others then asks nothing.
 template <class N, Effects E>
-QRAY_INLINE constexpr void geometry_at(const Scene<N, E>& scene, const Ray<N>& ray, const Hit<N>& hit, Point<N>& q,
-                                       Direction<N>& g)
+QRAY_INLINE constexpr bool is_smooth([[maybe_unused]] Kind kind)
 {
-    // What is none of the others is the last, so that there q and g are always set.
-    constexpr Kind last = E.disc ? Kind::disc
-        : E.patch                ? Kind::patch
-        : E.polygon              ? Kind::polygon
-        : E.cone                 ? Kind::cone
-                                 : Kind::sphere;
-    const auto is = [&hit](Kind kind) { return kind == last || hit.kind == kind; };
-    if constexpr (E.sphere)
-        if (is(Kind::sphere))
-            return surface_of(scene.spheres[hit.index], hit.local, ray.direction, q, g);
-    if constexpr (E.cone)
-        if (is(Kind::cone))
-            return surface_of(scene.cones[hit.index], hit.local, ray.direction, q, g);
-    if constexpr (E.polygon)
-        if (is(Kind::polygon)) {
-            const Polygon<N>& polygon = scene.polygons[hit.index];
-            g = polygon.normal;
-            q = on_plane<N>(scene.vertices[polygon.first], g, in_world(ray, hit.t));
-            return;
-        }
-    if constexpr (E.patch)
-        if (is(Kind::patch)) {
-            const Patch<N>& patch = scene.patches[hit.index];
-            g = patch.normal;
-            q = on_plane<N>(scene.vertices[patch.first], g, ray.origin + along<N>(hit.t, ray.direction));
-            return;
-        }
-    if constexpr (E.disc) {
-        const Disc<N>& disc = scene.discs.at(hit.index);
-        g = disc.normal;
-        q = on_plane<N>(disc.centre, g, ray.origin + along<N>(hit.t, ray.direction));
-    }
+#define QRAY_SMOOTH(Type, name, table) \
+    if constexpr (E.name && Type<N>::is_smooth) \
+        if (E.shapes() == 1 || kind == Kind::name) \
+            return true;
+    QRAY_SHAPES(QRAY_SMOOTH)
+#undef QRAY_SMOOTH
+    return false;
 }
 
 template <class N, Effects E>
 QRAY_INLINE constexpr Surface<N> surface_at(const Scene<N, E>& scene, const Ray<N>& ray, const Hit<N>& hit)
 {
     Point<N> q;
-    Direction<N> g;
-    geometry_at(scene, ray, hit, q, g);
-    Direction<N> n = g;
-    if constexpr (E.patch)
-        if (E.shapes() == 1 || hit.kind == Kind::patch)
-            n = shading_normal(scene.patches[hit.index], scene.vertices.data, scene.normals.data, ray);
+    Direction<N> g, n;
+    with_shape(scene, hit.kind, hit.index, [&](const auto& shape, Kind, uint32_t) __attribute__((always_inline)) {
+        surface_of(shape, corners_of(scene), ray, hit.t, hit.local, q, g);
+        if constexpr (shape.is_smooth)
+            n = shading_normal(shape, corners_of(scene), ray);
+        else
+            n = g;
+        return true;
+    });
     const auto n_d = N::unit(dot<N>(n, ray.direction));
     const bool turned = n_d > N::zero;
     if constexpr (keeps_step<N>) {
@@ -110,11 +56,10 @@ template <class N, Effects E>
 QRAY_INLINE constexpr Ray<N> leaving(const Surface<N>& s, [[maybe_unused]] Kind kind, Tag tag,
                                      const Direction<N>& d, bool above)
 {
-    if constexpr (E.patch)
-        if (E.shapes() == 1 || kind == Kind::patch) {
-            const bool outward = dot<N>(s.geometric, d) > typename N::Cosine{};
-            return {step_off<N>(s.point, s.geometric, outward), d, tag, outward};
-        }
+    if (is_smooth<N, E>(kind)) {
+        const bool outward = dot<N>(s.geometric, d) > typename N::Cosine{};
+        return {step_off<N>(s.point, s.geometric, outward), d, tag, outward};
+    }
     if constexpr (keeps_step<N>)
         if (above)
             return {parts_of(s.above), d, tag, !s.turned};
@@ -130,19 +75,13 @@ QRAY_INLINE constexpr Ray<N> going_on(const Surface<N>& s, [[maybe_unused]] Kind
 {
     if constexpr (WideFixed<N>) {
         bool outward = above != s.turned;
-        if constexpr (E.patch)
-            if (E.shapes() == 1 || kind == Kind::patch) {
-                cosine = N::unit(dot<N>(s.geometric, d));
-                outward = cosine > N::zero;
-                cosine = outward ? cosine : -cosine;
-            }
-        if (cosine >= N::steep) {
-            if constexpr (in_lanes<N>)
-                return {step_along<N>(s.point, d), d, tag, outward};
-            else
-                return {s.point + Point<N>{N::leave_along(d.x), N::leave_along(d.y), N::leave_along(d.z)}, d, tag,
-                        outward};
+        if (is_smooth<N, E>(kind)) {
+            cosine = N::unit(dot<N>(s.geometric, d));
+            outward = cosine > N::zero;
+            cosine = outward ? cosine : -cosine;
         }
+        if (cosine >= N::steep)
+            return {step_along<N>(s.point, d), d, tag, outward};
     }
     return leaving<N, E>(s, kind, tag, d, above);
 }
@@ -153,30 +92,12 @@ QRAY_INLINE constexpr Vec<typename N::Unit> colour_at(const Scene<N, E>& scene, 
     const Vec<typename N::Unit>& m = scene.mattes[material].colour;
     if constexpr (E.texture()) {
         const TextureRef& ref = scene.textures[material];
-        if constexpr (E.checker)
-            if (ref.kind == TextureKind::checker)
-                return scene.checkers.at(ref.index)(m, q);
-        if constexpr (E.stripes)
-            if (ref.kind == TextureKind::stripes)
-                return scene.stripes[ref.index](m, q);
-        if constexpr (E.gradient)
-            if (ref.kind == TextureKind::gradient)
-                return scene.gradients[ref.index](m, q);
-        if constexpr (E.rings)
-            if (ref.kind == TextureKind::rings)
-                return scene.rings[ref.index](m, q);
-        if constexpr (E.noise)
-            if (ref.kind == TextureKind::noise)
-                return scene.noises[ref.index](m, q);
-        if constexpr (E.marble)
-            if (ref.kind == TextureKind::marble)
-                return scene.marbles[ref.index](m, q);
-        if constexpr (E.wood)
-            if (ref.kind == TextureKind::wood)
-                return scene.woods[ref.index](m, q);
-        if constexpr (E.brick)
-            if (ref.kind == TextureKind::brick)
-                return scene.bricks[ref.index](m, q);
+#define QRAY_ASK(Type, name, table) \
+    if constexpr (E.name) \
+        if (ref.kind == TextureKind::name) \
+            return scene.table.at(ref.index)(m, q);
+        QRAY_TEXTURES(QRAY_ASK)
+#undef QRAY_ASK
     }
     return m;
 }
@@ -188,32 +109,19 @@ struct Gathered {
     [[no_unique_address]] Maybe<Rgb<N>, E.highlight> highlight;
 };
 
-template <class N>
-QRAY_INLINE constexpr void add(Rgb<N>& sum, const Rgb<N>& light, typename N::Unit k)
-{
-    if constexpr (in_lanes<N>) {
-        sum = sum + scaled<N>(k, light);
-    } else {
-        sum.x += N::colour(light.x * k);
-        sum.y += N::colour(light.y * k);
-        sum.z += N::colour(light.z * k);
-    }
-}
-
 // One hit: all that shading asks about it.
-template <class N, bool Windows = false>
+template <class N>
 struct Seen {
     const Surface<N>& surface;
     Kind kind;
     Tag tag;
     uint32_t material;
     const Direction<N>& direction; // of the ray that sees it
-    [[no_unique_address]] Maybe<ShapeSet, Windows> blockers{}; // what may be before a light
 };
 
 // Adds the light that comes along l, unless it is blocked.
 template <class N, Effects E, class Count>
-QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N, E.windows>& seen, const Direction<N>& l,
+QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen, const Direction<N>& l,
                                   typename N::Length distance, const Rgb<N>& colour, Gathered<N, E>& sum, Count& count)
 {
     const Surface<N>& s = seen.surface;
@@ -239,51 +147,38 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N, E.wind
             count(RayKind::shadow);
             const Ray<N> to_light = leaving<N, E>(s, seen.kind, seen.tag, l, true);
             if constexpr (E.see_through) {
-                auto through = N::one;
-                if constexpr (E.windows)
-                    through = light_through(scene, to_light, distance, seen.blockers.value);
-                else
-                    through = light_through(scene, to_light, distance);
+                const auto through = light_through(scene, to_light, distance);
                 if (through == N::zero)
                     return;
                 diffuse = N::unit(diffuse * through);
                 highlight = N::unit(highlight * through);
             } else {
-                bool blocked = false;
-                if constexpr (E.windows)
-                    blocked = light_blocked(scene, to_light, distance, seen.blockers.value);
-                else
-                    blocked = light_blocked(scene, to_light, distance);
-                if (blocked)
+                if (light_blocked(scene, to_light, distance))
                     return;
             }
         }
     }
-    add<N>(sum.matte, colour, diffuse);
+    add_scaled<N>(sum.matte, diffuse, colour);
     if constexpr (E.highlight)
-        add<N>(sum.highlight.value, colour, highlight);
+        add_scaled<N>(sum.highlight.value, highlight, colour);
 }
 
 template <class N, Effects E, class Count>
-QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N, E.windows>& seen, Count& count)
+QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N>& seen, Count& count)
 {
     Gathered<N, E> sum{scene.mattes[seen.material].ambient, {}};
-    if constexpr (E.light)
-        for (uint32_t i = 0; i < scene.lights.count; i++) {
-            Direction<N> l{};
-            typename N::Length distance{};
-            if (towards(scene.lights[i], seen.surface.point, l, distance))
-                gather(scene, seen, l, distance, scene.lights[i].colour, sum, count);
+#define QRAY_GATHER(Type, name, table) \
+    if constexpr (E.name) \
+        for (uint32_t i = 0; i < scene.table.count; i++) { \
+            Direction<N> l{}; \
+            typename N::Length distance{}; \
+            if (towards(scene.table[i], seen.surface.point, l, distance)) \
+                gather(scene, seen, l, distance, scene.table[i].colour, sum, count); \
         }
-    if constexpr (E.sun)
-        for (uint32_t i = 0; i < scene.suns.count; i++)
-            gather(scene, seen, scene.suns[i].from, N::length_max, scene.suns[i].colour, sum, count);
+    QRAY_LIGHTS(QRAY_GATHER)
+#undef QRAY_GATHER
     const Vec<typename N::Unit> m = colour_at(scene, seen.material, seen.surface.point);
-    Rgb<N> light;
-    if constexpr (in_lanes<N>)
-        light = filtered<N>(sum.matte, m);
-    else
-        light = {N::colour(sum.matte.x * m.x), N::colour(sum.matte.y * m.y), N::colour(sum.matte.z * m.z)};
+    Rgb<N> light = filtered<N>(sum.matte, m);
     if constexpr (E.highlight)
         light = light + sum.highlight.value;
     return light;
@@ -314,12 +209,9 @@ QRAY_INLINE constexpr void accumulate(Rgb<N>& sum, const Rgb<N>& light, typename
 }
 
 // The light that comes back along an eye ray, not yet clamped to [0, 1], divided by 2^exposure.
-// `known`, where the scene has windows, may be the ray's sight: elsewhere not even an empty one, which would make other
-// code of a desktop's kernels.
-template <class N, Effects E, class Count, class... Known>
-constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count, Known... known)
+template <class N, Effects E, class Count>
+constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count)
 {
-    [[maybe_unused]] Maybe<Sight<E.windows>, E.windows> sight{known...};
     Rgb<N> sum{N::black, N::black, N::black};
     [[maybe_unused]] Maybe<Stack<N, E>, E.transmit> stack;
     if constexpr (E.transmit)
@@ -329,26 +221,12 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count, Known
     count(RayKind::camera);
     for (;;) {
         Hit<N> hit;
-        bool found = false;
-        if constexpr (E.windows)
-            found = nearest(scene, ray, hit, sight.value.ahead());
-        else
-            found = nearest(scene, ray, hit);
-        if (!found) {
+        if (!nearest(scene, ray, hit)) {
             accumulate<N, E>(sum, scene.background, weight);
         } else {
             const Surface<N> s = surface_at(scene, ray, hit);
             const uint32_t material = hit.tag.material();
-            Seen<N, E.windows> seen{s, hit.kind, hit.tag, material, ray.direction, {}};
-            if constexpr (E.windows) {
-                const bool on_floor = hit.tag == scene.windows.value.floor;
-                seen.blockers.value = on_floor ? sight.value.before_light() : every_shape;
-                sight.value = on_floor ? sight.value.in_floor() : Sight<E.windows>{};
-                if constexpr (E.sphere)
-                    if ((E.shapes() == 1 || hit.kind == Kind::sphere) && !s.turned)
-                        seen.blockers.value = scene.windows.value.blockers[hit.index];
-            }
-            accumulate<N, E>(sum, local_light(scene, seen, count), weight);
+            accumulate<N, E>(sum, local_light(scene, Seen<N>{s, hit.kind, hit.tag, material, ray.direction}, count), weight);
             if constexpr (E.spawns()) {
                 if (depth < scene.max_depth.value) {
                     auto reflect = N::zero;
@@ -357,7 +235,7 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count, Known
                     if constexpr (E.transmit) {
                         const Transmit<N>& glass = scene.transmits[material];
                         if (glass.amount > N::zero) {
-                            const bool entering = E.patch && hit.kind == Kind::patch
+                            const bool entering = is_smooth<N, E>(hit.kind)
                                 ? dot<N>(ray.direction, s.geometric) < typename N::Cosine{}
                                 : !s.turned;
                             Direction<N> bent{};
@@ -380,9 +258,6 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count, Known
                         count(RayKind::mirrored);
                         ray = going_on<N, E>(s, hit.kind, hit.tag,
                                              mirrored<N>(ray.direction, s.normal, s.n_d), true, -s.n_d);
-                        if constexpr (E.windows && E.sphere)
-                            if ((E.shapes() == 1 || hit.kind == Kind::sphere) && !s.turned)
-                                sight.value = {scene.windows.value.octants[hit.index][octant_of<N>(ray.direction)]};
                         weight = w;
                         depth++;
                         continue;
@@ -397,7 +272,6 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count, Known
             ray = next.ray;
             weight = next.weight;
             depth = next.depth;
-            sight = {};
         } else {
             return sum;
         }

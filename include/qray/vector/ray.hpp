@@ -1,4 +1,4 @@
-// A ray, a hit, and the tag by which a ray knows the surface it left.
+// A ray, and the tag by which it knows the surface it left.
 #pragma once
 
 #include "vec.hpp"
@@ -39,8 +39,6 @@ QRAY_INLINE constexpr Leaves leaves(const Ray<N>& ray, Tag tag)
 {
     return !(ray.from == tag) ? Leaves::no : ray.outward ? Leaves::outward : Leaves::inward;
 }
-
-enum class Kind : uint8_t { sphere, disc, cone, polygon, patch };
 
 // Where a ray meets a curved surface, seen from the surface's centre: the ray's point nearest to that, and how far
 // along the ray the hit is from there. In the surface's own block scale.
@@ -90,44 +88,5 @@ QRAY_INLINE constexpr Point<N> from_rounded(const Point<N>& p, [[maybe_unused]] 
         return p;
     }
 }
-
-template <class N>
-struct Hit {
-    typename N::Length t; // > 0
-    Tag tag;
-    Kind kind;
-    uint32_t index; // into the scene's table of that kind
-    Local<N> local; // curved surfaces only
-
-    // Is it behind a hit at distance t2 on the surface named by tag2?
-    QRAY_INLINE constexpr bool is_behind(typename N::Length t2, Tag tag2) const
-    {
-        return t2 < t || (t2 == t && tag2.place() < tag.place());
-    }
-};
-
-// The surface at a hit. The geometric normal points outward; `normal` is the shading normal, turned to the viewer.
-template <class N>
-struct Surface {
-    Point<N> point;
-    Direction<N> geometric;
-    Direction<N> normal;
-    typename N::Unit n_d; // normal . d of the ray that sees it, <= 0
-    bool turned;          // the normal was turned
-};
-
-// With the point where rays start that leave to the viewer's side, where a step takes long to find.
-template <class N>
-inline constexpr bool keeps_step = !N::is_fixed;
-template <class N>
-    requires keeps_step<N>
-struct Surface<N> {
-    Point<N> point;
-    Direction<N> geometric;
-    Direction<N> normal;
-    typename N::Unit n_d;
-    bool turned;
-    Point<N> above;
-};
 
 } // namespace qray

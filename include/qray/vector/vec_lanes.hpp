@@ -179,6 +179,11 @@ QRAY_INLINE auto saturating_sub(const Vec<typename N::Length>& a, const Vec<type
     return Vec<typename N::Length>(words((d & ~over) | (limit & over)));
 }
 
+template <AnyLanes N>
+QRAY_INLINE void add_scaled(Vec<typename N::Colour>& sum, typename N::Unit k, const Vec<typename N::Colour>& light)
+{
+    sum = sum + scaled<N>(k, light);
+}
 template <FloatLanes N>
 QRAY_INLINE void saturating_add(Vec<typename N::Colour>& sum, const Vec<typename N::Colour>& light)
 {

@@ -213,6 +213,16 @@ QRAY_INLINE constexpr Vec<typename N::Length> saturating_sub(const Vec<typename 
     return {N::saturating_sub(a.x, b.x), N::saturating_sub(a.y, b.y), N::saturating_sub(a.z, b.z)};
 }
 
+// Adds k times light to a sum that has room for it.
+template <InParts N>
+QRAY_INLINE constexpr void add_scaled(Vec<typename N::Colour>& sum, typename N::Unit k,
+                                      const Vec<typename N::Colour>& light)
+{
+    sum.x += N::colour(light.x * k);
+    sum.y += N::colour(light.y * k);
+    sum.z += N::colour(light.z * k);
+}
+
 // Adds light, whole or a part k of it, to a sum; each component, none of which is negative, clamped.
 template <InParts N>
 QRAY_INLINE constexpr void saturating_add(Vec<typename N::Colour>& sum, const Vec<typename N::Colour>& light)

@@ -1,0 +1,90 @@
+// What exists, one list of each kind. Everything else is derived from these: the sets of effects, a scene's tables, the loops
+// over them, what a desktop stores and what a compiled scene holds. What is forgotten does not compile.
+//
+// X(Type, name, table): the structure, one template over the number system; the effect that it is; the scene's table of it.
+#pragma once
+
+#include <stdint.h>
+
+#include "../light/light.hpp"
+#include "../light/sun.hpp"
+#include "../shape/cone.hpp"
+#include "../shape/disc.hpp"
+#include "../shape/patch.hpp"
+#include "../shape/polygon.hpp"
+#include "../shape/sphere.hpp"
+#include "../surface/highlight.hpp"
+#include "../surface/mirror.hpp"
+#include "../surface/transmit.hpp"
+#include "../texture/brick.hpp"
+#include "../texture/checker.hpp"
+#include "../texture/gradient.hpp"
+#include "../texture/marble.hpp"
+#include "../texture/noise.hpp"
+#include "../texture/rings.hpp"
+#include "../texture/stripes.hpp"
+#include "../texture/wood.hpp"
+
+// A ray asks shapes in this order.
+#define QRAY_SHAPES(X) \
+    X(Sphere, sphere, spheres) \
+    X(Disc, disc, discs) /* a plane is one */ \
+    X(Cone, cone, cones) /* so is a cylinder */ \
+    X(Polygon, polygon, polygons) \
+    X(Patch, patch, patches)
+
+#define QRAY_TEXTURES(X) \
+    X(Checker, checker, checkers) \
+    X(Stripes, stripes, stripes) \
+    X(Gradient, gradient, gradients) \
+    X(Rings, rings, rings) \
+    X(Noise, noise, noises) \
+    X(Marble, marble, marbles) \
+    X(Wood, wood, woods) \
+    X(Brick, brick, bricks)
+
+#define QRAY_LIGHTS(X) \
+    X(Light, light, lights) \
+    X(Sun, sun, suns)
+
+// Parts of a material that only some scenes have; each table has an entry for every material.
+#define QRAY_SURFACES(X) \
+    X(Highlight, highlight, highlights) \
+    X(Mirror, mirror, mirrors) \
+    X(Transmit, transmits(), transmits)
+
+// All effects: those above, and those that are no structure with a table.
+#define QRAY_EFFECTS(X) \
+    QRAY_SHAPES(X) \
+    QRAY_TEXTURES(X) \
+    QRAY_LIGHTS(X) \
+    X(, shadow, )      /* light can be blocked, */ \
+    X(, see_through, ) /* and a surface in its way may let some of it through */ \
+    X(, highlight, ) \
+    X(, fractional_shine, ) \
+    X(, mirror, )      /* rays of higher depth */ \
+    X(, transmit, ) \
+    X(, eye_surface, ) /* the eye lies on a surface */ \
+    X(, grid, )        /* several samples a pixel, */ \
+    X(, adaptive, )    /* or as many as it takes */ \
+    X(, tree, )        /* over the shapes */
+
+// All tables of a scene, in its order.
+#define QRAY_TABLES(X) \
+    QRAY_SHAPES(X) \
+    X(Point, corners(), vertices) \
+    X(Direction, smooth(), normals) /* shading normals, as many as vertices */ \
+    X(Matte, always(), mattes) \
+    QRAY_SURFACES(X) \
+    X(TextureOf, texture(), textures) /* by material */ \
+    QRAY_TEXTURES(X) \
+    QRAY_LIGHTS(X)
+
+namespace qray {
+
+#define QRAY_NAME(Type, name, table) name,
+enum class Kind : uint8_t { QRAY_SHAPES(QRAY_NAME) };
+enum class TextureKind : uint8_t { none, QRAY_TEXTURES(QRAY_NAME) };
+#undef QRAY_NAME
+
+} // namespace qray
