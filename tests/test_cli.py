@@ -184,18 +184,25 @@ class Options(Cli):
                 self.assertTrue(0 <= float(found[name]) < 60)
 
     def test_warnings(self):
-        # A scene of radius 1e9 has steps of more than 1e9 / 64 / 2^24 = 0.9 in q32; what is 0 wide has no extent.
+        # A scene of radius 1e9 has steps of 1 in q32; what is 0 wide has no extent.
         text = view() + "s 1e9 0 0 9 s -1e9 0 0 9 s 0 0 0 0.1 s 0 0 0 1e-9 s 0 0 0 0 s 0 0 0 0 p 3 0 0 0 1 1 1 2 2 2\n"
         self.write("w.nff", text)
         status, _, err = self.run_qray("w.nff")
         self.assertEqual((status, err.splitlines()),
-                         (0, ["w.nff: warning: 3 objects without extent, left out",
-                              "w.nff: warning: 2 objects too small for the number system, left out"]))
+                         (0, ["w.nff:2: warning: an object without extent, left out; 3 objects in all",
+                              "w.nff:2: warning: a sphere too small for steps of 1, left out; 2 objects in all"]))
         status, _, err = self.run_qray("w.nff", "-n", "double")
-        self.assertEqual((status, err), (0, "w.nff: warning: 3 objects without extent, left out\n"))
+        self.assertEqual((status, err), (0, "w.nff:2: warning: an object without extent, left out; 3 objects in all\n"))
         self.assertEqual(self.run_qray("w.nff", "-q")[2], "")
-        self.write("w.nff", view() + "s 0 0 0 0")
-        self.assertEqual(self.run_qray("w.nff")[2], "w.nff: warning: 1 object without extent, left out\n")
+        self.write("w.nff", view() + "s 0 0 0 1\ns 0 0 0 0")
+        self.assertEqual(self.run_qray("w.nff")[2], "w.nff:3: warning: an object without extent, left out\n")
+        # A unit square with a corner 1/4 above it, across a box of a diagonal of 1.436; twice.
+        bent = "p 4 0 0 0 1 0 0 1 1 0 0 1 0.25\n"
+        self.write("w.nff", view() + bent + "p 4 0 0 0 1 0 0 1 1 0 0 1 0.01\n" + bent)
+        for number in ("q16", "q32", "float", "double"):
+            self.assertEqual(self.run_qray("w.nff", "-n", number)[2],
+                             "w.nff:2: warning: a polygon with a corner 0.25 off its plane, 17.4 % of its size; "
+                             "2 objects in all\n")
 
 
 class Files(Cli):

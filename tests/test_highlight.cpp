@@ -2,6 +2,8 @@
 
 #include "number_helpers.hpp"
 
+#include "../src/scene/convert.hpp"
+
 namespace {
 
 using namespace qray;
@@ -63,6 +65,22 @@ TYPED_TEST(HighlightTest, AgreesWithItsFormula)
     }
     // n.l and n.d rounded once each and doubled in the product, and the sum rounded.
     EXPECT_LE(worst, (N::is_fixed ? 3 : 8) * M::unit_ulp());
+}
+
+// 0^0 = 1, where a shine is 0 by the text alone.
+TYPED_TEST(HighlightTest, ShineNextToNoneIsNotNone)
+{
+    using N = TypeParam;
+    using M = make<N>;
+    const auto power = [](double x, double shine) {
+        return value(N::power(M::unit(x), scene::Convert<N>::shine(shine)));
+    };
+    EXPECT_EQ(power(0, 0), 1);
+    for (double shine = 0.01; shine > 0; shine *= 0.1) {
+        EXPECT_EQ(power(0, shine), 0) << shine;
+        EXPECT_NEAR(power(0.5, shine), std::pow(0.5, shine), 4 * M::unit_ulp()) << shine;
+        EXPECT_EQ(power(1, shine), 1) << shine;
+    }
 }
 
 } // namespace

@@ -59,6 +59,7 @@ TEST(Parser, ViewAlone) {
     EXPECT_EQ(scene.fill_count, 0u);
     EXPECT_EQ(scene.light_count, 0u);
     EXPECT_EQ(scene.dropped, 0u);
+    EXPECT_EQ(scene.nonplanar.count, 0u);
     EXPECT_STREQ(scene.comment, "");
     EXPECT_STREQ(error.text, "");
 }
@@ -365,6 +366,16 @@ TEST(Parser, DropsAndCountsWhatHasNoExtent) {
     ASSERT_PARSES(view + "s 0 0 0 0 s 0 0 0 0 s 0 0 0 1 p 3 0 0 0 0 0 0 0 0 0");
     EXPECT_EQ(scene.dropped, 3u);
     EXPECT_EQ(scene.object_count, 1u);
+}
+
+// A square's last corner, which has no part in the plane of the first three: to 1 % of the diagonal of the box.
+TEST(Parser, CornersOffThePlaneAreCounted) {
+    const auto square = [](double height) { return " p 4 0 0 0 10 0 0 10 10 0 0 10 " + std::to_string(height); };
+    ASSERT_PARSES(view + square(0.1414) + "\n" + square(0.1416) + "\n" + square(-3) + "\n" + square(-0.1414));
+    EXPECT_EQ(scene.nonplanar.count, 2u);
+    EXPECT_EQ(scene.nonplanar.line, 3u);
+    ASSERT_PARSES(view + "pp 4 0 0 0 0 0 1 10 0 0 0 0 1 10 10 0 0 0 1 0 10 5 0 0 1\n"); // each triangle has its own
+    EXPECT_EQ(scene.nonplanar.count, 0u);
 }
 
 // A good patch may have triangles without area, which are dropped as any other.

@@ -12,11 +12,18 @@ namespace {
 
 scene::Description loaded;
 
-void warn(const char* scene, uint32_t objects, const char* what)
+void warn(const char* scene, uint32_t count, uint32_t line, const char* what)
 {
-    if (objects != 0)
-        fprintf(stderr, "%s: warning: %u object%s %s\n", scene::ShownName(scene).text, objects,
-                objects == 1 ? "" : "s", what);
+    if (count == 0)
+        return;
+    fprintf(stderr, "%s:%u: warning: %s", scene::ShownName(scene).text, line, what);
+    if (count > 1)
+        fprintf(stderr, "; %u objects in all", count);
+    fputc('\n', stderr);
+}
+void warn(const char* scene, const scene::Warning& w)
+{
+    warn(scene, w.count, w.line, w.text);
 }
 
 } // namespace
@@ -50,8 +57,9 @@ int load(const Options& options, const Renderer& renderer, const char* out, Buil
         return 1;
     }
     if (!options.quiet) {
-        warn(options.scene, loaded.dropped, "without extent, left out");
-        warn(options.scene, built.vanished, "too small for the number system, left out");
+        warn(options.scene, loaded.dropped, loaded.dropped_line, "an object without extent, left out");
+        warn(options.scene, loaded.nonplanar);
+        warn(options.scene, built.lost);
     }
     return go_on;
 }

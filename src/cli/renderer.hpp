@@ -14,6 +14,7 @@ struct Built {
     uint32_t width, height;
     Effects effects;
     uint32_t vanished; // objects smaller than the number system's resolution
+    scene::Warning lost; // what the number system cannot draw right
     uint32_t balls;
     uint32_t table_bytes; // of the scene when it is compiled
     const char* kernel;
@@ -81,7 +82,7 @@ struct RendererOf {
         if (!scene::Builder<N>(description, settings, storage).build(error))
             return false;
         built = {storage.camera.width, storage.camera.height, storage.effects, storage.vanished,
-                 storage.spheres.count, table_bytes(storage), Kernel<N>::name(storage)};
+                 storage.lost, storage.spheres.count, table_bytes(storage), Kernel<N>::name(storage)};
         return true;
     }
     static void rows(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts)

@@ -79,7 +79,7 @@ private:
     bool fine_enough([[maybe_unused]] Error& error) const
     {
         if constexpr (NarrowFixed<N>) {
-            const double step = ldexp(1 / frame.scale, -N::Length::frac);
+            const double step = this->step();
             if (frame.radius < Limits::narrow_radius * step) {
                 snprintf(error.text, sizeof error.text,
                          "q16 has lengths in steps of %.3g where planes reach as far as %.6g, and the scene's radius "
@@ -109,6 +109,7 @@ private:
         s.marbles.count = s.woods.count = s.bricks.count = 0;
         s.lights.count = s.suns.count = 0;
         s.vanished = 0;
+        s.lost.clear();
     }
 
     Frame fit() const
@@ -165,7 +166,7 @@ private:
         const Tag tag = make_tag(place, o.fill);
         switch (o.shape) {
         case Shape::sphere: sphere(o, tag); break;
-        case Shape::disc: disc(point(o.a), unit(o.b), o.ra, tag); break;
+        case Shape::disc: disc(o, point(o.a), unit(o.b), o.ra, tag); break;
         case Shape::plane: plane(o, tag); break;
         case Shape::cone: cone(o, tag); break;
         case Shape::polygon: polygon(o, tag); break;
@@ -184,6 +185,22 @@ private:
                 fine++;
         return fine;
     }
+
+    // The least difference of coordinates as large as the world, in the scene's own units.
+    double step() const
+    {
+        if constexpr (N::is_fixed)
+            return ldexp(1 / frame.scale, -N::Length::frac);
+        else
+            return static_cast<double>(N::epsilon) * world / frame.scale;
+    }
+
+    void vanish(const Object& o)
+    {
+        s.vanished++;
+        s.lost.note(o.line, "a %s too small for steps of %.3g, left out", names[static_cast<int>(o.shape)], step());
+    }
+    static constexpr const char* names[] = {"sphere", "cone", "polygon", "patch", "plane", "disc"};
 
     // Smaller than the step by which a ray leaves a surface, a ball cannot hold what starts inside of it.
     static bool too_small(typename N::Length r)
@@ -207,7 +224,7 @@ private:
     void sphere(const Object& o, Tag tag)
     {
         if (too_small(radius(o.ra))) {
-            s.vanished++;
+            vanish(o);
             return;
         }
         const int fine = fine_for(o.ra, sphere_world);
@@ -216,10 +233,10 @@ private:
                             Convert<N>::rounded(frame.point(o.a), fine)};
     }
 
-    void disc(const Point<N>& centre, const Vec3d& n, double r, Tag tag)
+    void disc(const Object& o, const Point<N>& centre, const Vec3d& n, double r, Tag tag)
     {
         if (radius(r) == N::length_zero) {
-            s.vanished++;
+            vanish(o);
             return;
         }
         s.discs.push() = {centre, Convert<N>::direction(n), radius(r), tag};
@@ -230,7 +247,7 @@ private:
         const Vec3d n = unit(o.b);
         const double height = dot(n, o.a - frame.centre);
         if (fabs(height) < frame.far)
-            disc(point(frame.centre + n * height), n, sqrt(frame.far * frame.far - height * height), tag);
+            disc(o, point(frame.centre + n * height), n, sqrt(frame.far * frame.far - height * height), tag);
     }
 
     void cone(const Object& o, Tag tag)
@@ -241,7 +258,7 @@ private:
         const double growth = (o.rb - o.ra) / height;
         const double cosine = 1 / sqrt(1 + growth * growth), sine = growth * cosine;
         if (vanishes(radius(fmax(o.ra, o.rb))) || vanishes(radius(height))) {
-            s.vanished++;
+            vanish(o);
             return;
         }
         const Vec3d e1 = unit_across(axis), e2 = cross(axis, e1);
@@ -304,7 +321,7 @@ private:
         const uint32_t first = push_corners(o);
         if (!(length(g) > 0) || !spans(s.vertices.data + first, o.count)) {
             s.vertices.count = first;
-            s.vanished++;
+            vanish(o);
             return;
         }
         const CornerBall around = ball(o.count, [v](uint32_t i) { return v[i]; });
@@ -329,7 +346,7 @@ private:
             if (!(length(g) > 0)) // the parser has counted it
                 continue;
             if (!spans(rounded, 3)) {
-                s.vanished++;
+                vanish(o);
                 continue;
             }
             const CornerBall around = ball(3, [&corners](uint32_t k) { return corners[k]; });

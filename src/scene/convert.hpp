@@ -53,8 +53,12 @@ struct Convert {
             return 1 / r;
         }
     }
+    // What is more than 0 stays so: 0^0 is 1, and 0 to any other power is 0.
     static typename N::Shine shine(double e)
     {
+        const double least = ldexp(1, N::is_fixed ? -32 : sizeof(typename N::Unit) == 4 ? -24 : -53);
+        if (e > 0)
+            e = fmax(e, least);
         const double whole = floor(e);
         if constexpr (N::is_fixed)
             return {static_cast<uint32_t>(whole), static_cast<uint32_t>(fmin(4294967295.0, ldexp(e - whole, 32)))};

@@ -8,8 +8,10 @@
 // A polygon has a plane: (v1 - v0) x (v2 - v1) or, where these are in line, its Newell vector is not zero.
 #pragma once
 
+#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include <qray/scene/lists.hpp>
 
@@ -68,6 +70,25 @@ struct Object {
     Vec3d b;                           // - | apex end | - | - | normal | normal (as given)
     double ra = 0, rb = 0;             // radius, - | base, apex radius | - | - | - | radius, -
     uint32_t vertex = 0, count = 0;    // polygon, patch: first corner, number of corners
+    uint32_t line = 0;                 // of the text
+};
+
+// What is not drawn as the text has it: so many objects, and the first of them.
+struct Warning {
+    uint32_t count, line;
+    char text[224];
+
+    void clear() { count = line = 0; }
+    [[gnu::format(printf, 3, 4)]] void note(uint32_t at, const char* format, ...)
+    {
+        if (count++ != 0 && line <= at)
+            return;
+        line = at;
+        va_list values;
+        va_start(values, format);
+        vsnprintf(text, sizeof text, format, values);
+        va_end(values);
+    }
 };
 
 struct Description {
@@ -78,6 +99,8 @@ struct Description {
     double far = 0; // 0: the default, 16 scene radii
     uint32_t object_count = 0, vertex_count = 0, fill_count = 0, light_count = 0;
     uint32_t dropped = 0; // objects and triangles of patches without extent, left out
+    uint32_t dropped_line = 0; // of the first
+    Warning nonplanar{}; // polygons of which a corner is off the plane by more than 1 % of their size
     char comment[256] = {}; // the first comment that says something, without its '#'; else empty
     // Left as they are until the parser fills them: nobody writes a hundred megabytes to start.
     union { Object objects[Limits::objects]; };

@@ -1,4 +1,5 @@
 // The grammar of the scene language, entity by entity, and all its checks.
+#include "geometry.hpp"
 #include "reader.hpp"
 
 #include <algorithm>
@@ -94,10 +95,12 @@ private:
     bool expect_field(std::string_view word);
     bool begin_object();
     bool add(Object object);
-    bool drop() {
-        ++out_.dropped;
+    bool drop(uint32_t pieces = 1) {
+        if (out_.dropped == 0 && pieces != 0) out_.dropped_line = entity_.at.line;
+        out_.dropped += pieces;
         return true;
     }
+    void warn_of_nonplanar(const Vec3d* corners, uint32_t n);
     bool use_fill(uint32_t& index);
 
     bool unknown_entity();
@@ -273,6 +276,7 @@ bool Parser::add(Object object) {
         return fail(entity_.at, "too many objects; expected at most %u (limit 'objects')", Limits::objects);
     }
     if (!use_fill(object.fill)) return false;
+    object.line = entity_.at.line;
     out_.objects[out_.object_count++] = object;
     return true;
 }
@@ -301,6 +305,23 @@ bool Parser::cone() {
     return object.ra == 0 && object.rb == 0 ? drop() : add(object);
 }
 
+// What is drawn lies in the plane of the first corners.
+void Parser::warn_of_nonplanar(const Vec3d* corners, uint32_t n) {
+    if (n == 3) return;
+    const Vec3d normal = unit(across(corners, n));
+    Box box;
+    double off = 0;
+    for (uint32_t i = 0; i < n; ++i) {
+        box.add(corners[i]);
+        off = std::max(off, std::fabs(dot(corners[i] - corners[0], normal)));
+    }
+    const double size = length(box.high - box.low);
+    if (off > 0.01 * size) {
+        out_.nonplanar.note(entity_.at.line, "a polygon with a corner %.3g off its plane, %.3g %% of its size",
+                            off, 100 * off / size);
+    }
+}
+
 bool Parser::corners(Shape shape) {
     const bool patch = shape == Shape::patch;
     Object object;
@@ -326,7 +347,9 @@ bool Parser::corners(Shape shape) {
     const Vec3d* v = out_.vertices + object.vertex;
     if (patch)
         for (uint32_t i = 1; i + 1 < object.count; ++i)
-            out_.dropped += largest(triangle_area(v[0], v[i], v[i + 1])) == 0;
+            drop(largest(triangle_area(v[0], v[i], v[i + 1])) == 0);
+    else
+        warn_of_nonplanar(v, object.count);
     out_.vertex_count += object.count;
     return true;
 }
@@ -467,7 +490,8 @@ void reset(Description& out) {
     out.shadows = true;
     out.far = 0;
     out.object_count = out.vertex_count = out.fill_count = out.light_count = 0;
-    out.dropped = 0;
+    out.dropped = out.dropped_line = 0;
+    out.nonplanar.clear();
     out.comment[0] = 0;
 }
 

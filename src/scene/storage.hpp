@@ -44,6 +44,7 @@ struct Storage {
     uint8_t levels;
     typename N::Unit threshold;
     uint32_t vanished; // objects smaller than the number system's resolution
+    Warning lost;      // these, and whatever else it cannot draw right
 
     Array<Sphere<N>, Limits::objects> spheres;
     Array<Disc<N>, Limits::objects> discs;
