@@ -180,6 +180,50 @@ TYPED_TEST(EyeSurfaces, NearASurfaceIsNotOnIt)
         }
 }
 
+// However near: from its own side the surface is met, and where it is not closed there is nothing behind the eye.
+TYPED_TEST(EyeSurfaces, NextToASurfaceIsOnItsSide)
+{
+    using N = TypeParam;
+    for (const char* object : {"s 0 0 0 1", "c 0 0 -2 1 0 0 2 1", "c 0 0 -2 1.5 0 0 2 0.5", "disc 0 1 0 0 1 0 2",
+                               "plane 0 1 0 0 1 0", "p 3 -2 1 -2 2 1 -2 0 1 3",
+                               "pp 3 -2 1 -2 0 1 0 2 1 -2 0 1 0 0 1 3 0 1 0"})
+        for (const double off : {1e-13, 1e-10, 1e-8, 1e-6, 1e-4})
+            for (const double side : {1.0, -1.0})
+                for (const bool towards : {true, false}) {
+                    char text[400];
+                    std::snprintf(text, sizeof text,
+                                  "v from 0 %.17g 0 at 0 %d 0 up 0 0 1 angle 20 hither 0 resolution 1 1\n far 8\n"
+                                  "ambientlight 1 1 1\n material\n%s\n",
+                                  1 + side * off, (side > 0) == towards ? -3 : 5, object);
+                    ASSERT_TRUE(loaded<N>(text));
+                    EXPECT_FALSE(storage<N>().effects.eye_surface) << text;
+                    const bool closed = object[0] == 's' || object[0] == 'c';
+                    EXPECT_NEAR(light_at<N>(0, 0).x, towards || (closed && side < 0), light_tolerance<N>()) << text;
+                }
+}
+
+// On a tilted plane, across it and to both sides, far from where the plane is said to pass.
+TYPED_TEST(EyeSurfaces, NextToATiltedPlaneIsOnItsSide)
+{
+    using N = TypeParam;
+    Random random(75);
+    for (int i = 0; i < 200; i++) {
+        const Vec3 n = random.direction(), u = unit(cross(n, random.direction())), at = random.point(2);
+        const double side = i % 2 != 0 ? 1 : -1;
+        const Vec3 eye = at + u * 3 + n * (side * 1e-9), down = unit(u + n * (-0.2 * side)), up = unit(u + n * (0.2 * side));
+        for (const Vec3& d : {down, up}) {
+            if (std::fabs(d.y) > 0.99)
+                continue;
+            SceneText text({1, {0, 0, 0}, false, false});
+            text.background(0, 0, 0);
+            text.view(eye, eye + d * 2, 30, 1);
+            text.plane(at, n);
+            ASSERT_TRUE(loaded<N>("ambientlight 1 1 1\n" + text.text()));
+            EXPECT_EQ(light_at<N>(0, 0).x > 0.5, &d == &down || d == down) << text.text();
+        }
+    }
+}
+
 // In a world whose steps are longer than a ball is wide.
 TYPED_TEST(EyeSurfaces, SmallBallInAVastWorldIsFarOff)
 {

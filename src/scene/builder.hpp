@@ -5,19 +5,11 @@
 #include <stdio.h>
 
 #include "balls.hpp"
-#include "convert.hpp"
-#include "geometry.hpp"
+#include "resolution.hpp"
 #include "settings.hpp"
 #include "storage.hpp"
 
 namespace qray::scene {
-
-// The move and the scale: scaled = (p - origin) * scale, scale a power of two.
-struct Frame {
-    Vec3d origin, centre; // centre: of the scene box, in the scene's own units
-    double scale = 1, radius = 0, far = 0;
-    Vec3d point(const Vec3d& p) const { return (p - origin) * scale; }
-};
 
 template <class N>
 class Builder {
@@ -30,9 +22,10 @@ public:
         if (!few_enough(error))
             return false;
         reset();
-        frame = fit();
+        fit();
         if (!fine_enough(error))
             return false;
+        resolution.pairs(s.order);
         // Patches first: a corner's normal has the number of the corner, and polygons need none.
         for (const bool patches : {true, false}) {
             place = 0;
@@ -49,8 +42,8 @@ public:
     }
 
 private:
-    // How far a point may lie from the origin, and what block-scaled radii may be: see cone.hpp, q16.hpp.
-    static constexpr double world = 62, cone_world = NarrowFixed<N> ? 18 : 40, sphere_world = 31.9;
+    // What block-scaled radii may be: see cone.hpp, q16.hpp.
+    static constexpr double cone_world = NarrowFixed<N> ? 18 : 40, sphere_world = 31.9;
 
     static constexpr bool is_float = !N::is_fixed && sizeof(typename N::Length) == 4;
 
@@ -58,6 +51,7 @@ private:
     const Settings& settings;
     Storage<N>& s;
     Frame frame;
+    Resolution<N> resolution{d, frame, s.lost};
     uint32_t place = 0;
 
     // A tag has room for so many places, but for the one that names no surface.
@@ -79,7 +73,7 @@ private:
     bool fine_enough([[maybe_unused]] Error& error) const
     {
         if constexpr (NarrowFixed<N>) {
-            const double step = this->step();
+            const double step = resolution.step();
             if (frame.radius < Limits::narrow_radius * step) {
                 snprintf(error.text, sizeof error.text,
                          "q16 has lengths in steps of %.3g where planes reach as far as %.6g, and the scene's radius "
@@ -112,7 +106,7 @@ private:
         s.lost.clear();
     }
 
-    Frame fit() const
+    void fit()
     {
         Box box;
         box.add(d.view.from);
@@ -125,7 +119,7 @@ private:
                 cone = fmax(cone, cone_bound(d.objects[i]));
             planes = planes || d.objects[i].shape == Shape::plane;
         }
-        Frame f;
+        Frame& f = frame;
         f.centre = (box.low + box.high) * 0.5;
         f.radius = length(box.high - box.low) / 2;
         f.far = d.far > 0 ? d.far : 16 * f.radius;
@@ -136,16 +130,16 @@ private:
         // On a coarse lattice, so that coordinates that are round in the file stay so.
         const double step = f.scale * 64;
         f.origin = {round(f.centre.x * step) / step, round(f.centre.y * step) / step, round(f.centre.z * step) / step};
+        f.eye = resolution.eye();
+        f.pushed = length(f.eye - d.view.from);
         // At most half an ulp from there, so that the eye, where all rays start, is not rounded.
         if constexpr (WideFixed<N>) {
             const auto moved = [&f](double origin, double eye) {
                 const double ulp = ldexp(1 / f.scale, -N::Length::frac), at = (eye - origin) / ulp;
                 return origin + (at - rint(at)) * ulp;
             };
-            f.origin = {moved(f.origin.x, d.view.from.x), moved(f.origin.y, d.view.from.y),
-                        moved(f.origin.z, d.view.from.z)};
+            f.origin = {moved(f.origin.x, f.eye.x), moved(f.origin.y, f.eye.y), moved(f.origin.z, f.eye.z)};
         }
-        return f;
     }
 
     Point<N> point(const Vec3d& p) const { return Convert<N>::point(frame.point(p)); }
@@ -164,15 +158,18 @@ private:
             return;
         }
         const Tag tag = make_tag(place, o.fill);
+        const uint32_t vanished = s.vanished;
         switch (o.shape) {
         case Shape::sphere: sphere(o, tag); break;
         case Shape::disc: disc(o, point(o.a), unit(o.b), o.ra, tag); break;
         case Shape::plane: plane(o, tag); break;
         case Shape::cone: cone(o, tag); break;
         case Shape::polygon: polygon(o, tag); break;
-        case Shape::patch: patch(o); return;
+        case Shape::patch: patch(o); break;
         }
-        place++;
+        place += o.shape != Shape::patch;
+        if (s.vanished == vanished)
+            resolution.span(o);
     }
 
     // The most bits that a shape of this size can have beyond Length's: 2^fine times it, and a little more that a
@@ -186,21 +183,12 @@ private:
         return fine;
     }
 
-    // The least difference of coordinates as large as the world, in the scene's own units.
-    double step() const
-    {
-        if constexpr (N::is_fixed)
-            return ldexp(1 / frame.scale, -N::Length::frac);
-        else
-            return static_cast<double>(N::epsilon) * world / frame.scale;
-    }
-
     void vanish(const Object& o)
     {
         s.vanished++;
-        s.lost.note(o.line, "a %s too small for steps of %.3g, left out", names[static_cast<int>(o.shape)], step());
+        s.lost.note(o.line, "a %s too small for steps of %.3g, left out", shape_names[static_cast<int>(o.shape)],
+                    resolution.step());
     }
-    static constexpr const char* names[] = {"sphere", "cone", "polygon", "patch", "plane", "disc"};
 
     // Smaller than the step by which a ray leaves a surface, a ball cannot hold what starts inside of it.
     static bool too_small(typename N::Length r)
@@ -473,7 +461,7 @@ private:
         // |w|, |x u| and |y v| at most 2^60: see camera.hpp
         const double most = fmax(1, fmax(half, half * width / height));
         const double scale = ldexp(1, NarrowFixed<N> ? 29 : 60) / most;
-        s.camera = {point(v.from),
+        s.camera = {point(frame.eye),
                     Convert<N>::pencil(w, scale),
                     Convert<N>::pencil(u * step, scale),
                     Convert<N>::pencil(t * -step, scale),
@@ -486,31 +474,14 @@ private:
         s.threshold = Convert<N>::unit(settings.threshold);
     }
 
-    // The first surface that the eye lies on, as far as the number system and double can tell.
     void eye_surface()
     {
-        // Of coordinates as large as the world; and of a radius, as much as leaves normals of unit length.
-        double step = 0, share = 0;
-        if constexpr (N::is_fixed) {
-            step = ldexp(1, -N::Length::frac);
-            share = NarrowFixed<N> ? 0x1p-5 : 0x1p-8;
-        } else {
-            step = 256 * static_cast<double>(N::epsilon);
-            share = sqrt(static_cast<double>(N::epsilon)) / 4;
-        }
-        const double most = step / frame.scale + 0x1p-50 * largest(d.view.from);
+        uint32_t fill = 0;
+        Vec3d outward;
+        const int64_t at = resolution.eye_surface(fill, outward);
         s.eye_surface = {{Tag::none}, {}};
-        for (uint32_t i = 0, at = 0; i < d.object_count; i++) {
-            const Object& o = d.objects[i];
-            const double off = fmin(most, share * widest(o));
-            for (uint32_t part = 0; part < surfaces_of(o); part++, at++) {
-                Vec3d outward;
-                if (lies_on(d, o, part, d.view.from, off, outward)) {
-                    s.eye_surface = {make_tag(at, o.fill), Convert<N>::direction(outward)};
-                    return;
-                }
-            }
-        }
+        if (at >= 0)
+            s.eye_surface = {make_tag(static_cast<uint32_t>(at), fill), Convert<N>::direction(outward)};
     }
 
     void effects()

@@ -87,13 +87,15 @@ inline double widest(const Object& o)
     return o.shape == Shape::sphere || o.shape == Shape::cone ? fmax(o.ra, o.rb) : HUGE_VAL;
 }
 
-// Is p no farther than `off` from an object, of a patch from the part-th triangle? Then also the outward normal there;
-// 0 at an apex. Polygons are taken for what their boxes hold of their planes: a ray from there meets nothing of them.
-inline bool lies_on(const Description& d, const Object& o, uint32_t part, const Vec3d& p, double off, Vec3d& outward)
+// Is p no farther than `off` from an object, of a patch from the part-th triangle? Then also the outward normal there,
+// 0 at an apex, and how far outward p is. Polygons are taken for what their boxes hold of their planes: a ray from there meets nothing of them.
+inline bool lies_on(const Description& d, const Object& o, uint32_t part, const Vec3d& p, double off, Vec3d& outward,
+                    double& above)
 {
     const auto in_plane = [&](const Vec3d& at, const Vec3d& n) {
         outward = n;
-        return fabs(dot(p - at, n)) <= off;
+        above = dot(p - at, n);
+        return fabs(above) <= off;
     };
     const auto in_polygon = [&](const Vec3d* corners, uint32_t count) {
         Box box;
@@ -108,7 +110,8 @@ inline bool lies_on(const Description& d, const Object& o, uint32_t part, const 
     switch (o.shape) {
     case Shape::sphere: {
         const double distance = length(p - o.a);
-        if (!(distance > 0) || fabs(distance - o.ra) > off)
+        above = distance - o.ra;
+        if (!(distance > 0) || fabs(above) > off)
             return false;
         outward = unit(p - o.a);
         return true;
@@ -123,7 +126,8 @@ inline bool lies_on(const Description& d, const Object& o, uint32_t part, const 
         const Vec3d radial = p - o.a - axis * z;
         const double rho = length(radial);
         outward = r > off && rho > 0 ? (radial * (1 / rho) - axis * growth) * cosine : Vec3d{};
-        return z >= -off && z <= height + off && fabs(rho - r) * cosine <= off;
+        above = (rho - r) * cosine;
+        return z >= -off && z <= height + off && fabs(above) <= off;
     }
     case Shape::polygon: return in_polygon(v, o.count);
     case Shape::patch: {

@@ -58,6 +58,7 @@ struct Storage {
     Array<ShapeId, shape_limit + bound_lanes> shape_ids;
     Array<BallBlock, shape_limit / (bound_lanes - 1) + 64> blocks;
     Tree tree;
+    uint32_t order[Limits::objects]; // for the builder to sort
 
     Array<Matte<N>, Limits::materials> mattes;
     Array<Highlight<N>, Limits::materials> highlights;

@@ -1,0 +1,341 @@
+// What a number system cannot tell apart in a scene: where the eye may stand, which objects span too few steps, and
+// which surfaces fall together. The bounds were measured against tests/oracle, so that what is below them is not drawn
+// right (28 dB in q16, 60 dB in q32, 45 dB in float), and what is above them is.
+#pragma once
+
+#include <algorithm>
+
+#include "convert.hpp"
+#include "geometry.hpp"
+
+namespace qray::scene {
+
+// How far a point may lie from the origin of what is moved and scaled.
+inline constexpr double world = 62;
+
+// The move and the scale: scaled = (p - origin) * scale, scale a power of two.
+struct Frame {
+    Vec3d origin, centre; // centre: of the scene box, in the scene's own units
+    double scale = 1, radius = 0, far = 0;
+    Vec3d eye;         // where rays start
+    double pushed = 0; // how far that is from where the text has it
+    Vec3d point(const Vec3d& p) const { return (p - origin) * scale; }
+};
+
+constexpr const char* shape_names[] = {"sphere", "cone", "polygon", "patch", "plane", "disc"};
+
+template <class N>
+struct Steps {
+    static constexpr bool single = !N::is_fixed && sizeof(typename N::Length) == 4;
+    // Rays that start so many steps off a surface meet it.
+    static constexpr double off = NarrowFixed<N> ? 5 : 3;
+    // Of two surfaces, where one lets rays through, and where none does.
+    static constexpr double clear_apart = NarrowFixed<N> ? 4 : N::is_fixed ? 48 : 4, apart = 1.6;
+    // Of a picture's height, where the object is.
+    static constexpr double picture = NarrowFixed<N> ? 300 : N::is_fixed ? 6144 : single ? 2048 : 0x1p28;
+    // How much of a picture's height the horizon of a curved surface may move, and how many steps it is off anyway.
+    static constexpr double horizon = NarrowFixed<N> ? 1.0 / 256 : N::is_fixed ? 2e-3 : 4e-3;
+    static constexpr double cone_horizon = single ? horizon / 8 : horizon;
+    static constexpr double rough = NarrowFixed<N> ? 1 : 0;
+};
+
+template <class N>
+class Resolution {
+public:
+    Resolution(const Description& from, const Frame& in, Warning& into)
+        : d(from), frame(in), lost(into), forward(unit(from.view.at - from.view.from)),
+          half(tan(from.view.angle * (M_PI / 360)))
+    {
+    }
+
+    // The least difference of coordinates as large as the world, in the scene's own units.
+    double step() const { return step_at(world / frame.scale); }
+    // Of coordinates of that size.
+    double step_at([[maybe_unused]] double size) const
+    {
+        if constexpr (N::is_fixed)
+            return ldexp(1 / frame.scale, -N::Length::frac);
+        else
+            return static_cast<double>(N::epsilon) * size;
+    }
+
+    // What double makes of the distance 0 from p to the surface with this normal.
+    double noise(const Object& o, const Vec3d& n, const Vec3d& p) const
+    {
+        const Vec3d at = place(o), v = p - at;
+        const auto part = [](double a, double b, double along) { return (fabs(a) + fabs(b)) * fabs(along); };
+        const bool curved = widest(o) < HUGE_VAL, exact = largest(n) == 1, apex = largest(n) == 0;
+        return 0x1p-50 * (part(p.x, at.x, n.x) + part(p.y, at.y, n.y) + part(p.z, at.z, n.z)
+                          + (curved ? widest(o) + largest(v) : exact ? 0 : largest(v))
+                          + (apex ? largest(p) + largest(at) : 0));
+    }
+
+    // The text's eye or, where that is off a surface by less than what rays need to meet it, as much as that.
+    Vec3d eye()
+    {
+        const double need = Steps<N>::off * step();
+        Vec3d at = d.view.from;
+        for (int round = 0; round < 8; round++) {
+            bool moved = false;
+            for_each_near(need + length(at - d.view.from), [&](const Object& o, uint32_t part, double off) {
+                Vec3d n, way;
+                double text_off = 0, now = 0;
+                lies_on(d, o, part, d.view.from, off, n, text_off);
+                const double most = fmin(need, share() * widest(o)), side = text_off < 0 ? -1 : 1;
+                if (round == 0)
+                    horizon(o, n, text_off, fmax(most, text_off));
+                if (fabs(text_off) <= noise(o, n, d.view.from) || !lies_on(d, o, part, at, off, way, now) || !(length(way) > 0)
+                    || side * now > 0.99 * most)
+                    return true;
+                at = at + way * (side * most - now);
+                moved = true;
+                if (round == 7)
+                    lost.note(o.line, "the eye, %.3g off a %s, falls onto it where steps are %.3g", fabs(text_off),
+                              name(o), step());
+                return true;
+            });
+            if (!moved)
+                break;
+        }
+        return at;
+    }
+
+    // Seen from outside, where does what is curved end?
+    void horizon(const Object& o, const Vec3d& n, double off, double seen_from)
+    {
+        const double r = widest(o);
+        if (r == HUGE_VAL || off <= noise(o, n, d.view.from) || fabs(dot(n, forward)) > sin(half_diagonal()))
+            return;
+        const double moved = sqrt(2 * seen_from / r) - sqrt(2 * off / r)
+            + Steps<N>::rough * step() / sqrt(2 * seen_from * r);
+        if (moved > (o.shape == Shape::cone && o.ra != o.rb ? Steps<N>::cone_horizon : Steps<N>::horizon) * 2 * half)
+            lost.note(o.line, "the eye, %.3g off a %s, sees its horizon from %.3g off, where steps are %.3g", off,
+                      name(o), seen_from, step());
+    }
+
+    // The first surface that the eye lies on: its number, 0 at least; or -1.
+    int64_t eye_surface(uint32_t& fill, Vec3d& outward) const
+    {
+        int64_t found = -1;
+        for_each_near(0x1p-44 * (frame.radius + largest(d.view.from)), [&](const Object& o, uint32_t part, double off) {
+            double above = 0;
+            lies_on(d, o, part, d.view.from, off, outward, above);
+            if (fabs(above) > noise(o, outward, d.view.from))
+                return true;
+            fill = o.fill;
+            found = place_of(o) + part;
+            return false;
+        });
+        return found;
+    }
+
+    // Does an object in view span steps enough?
+    void span(const Object& o)
+    {
+        if (o.shape == Shape::plane)
+            return;
+        Box box;
+        add_object(box, d, o);
+        const Vec3d middle = (box.low + box.high) * 0.5, v = middle - d.view.from;
+        const double r = length(box.high - box.low) / 2, away = length(v), picture = 2 * half * away;
+        if (away <= r || r * d.view.height < picture / 2
+            || acos(fmax(-1, fmin(1, dot(v, forward) / away))) - asin(r / away) > half_diagonal())
+            return;
+        const double error = fmax(across_view(middle, v), frame.pushed);
+        if (picture >= Steps<N>::picture * error)
+            return;
+        if (2 * r < picture)
+            lost.note(o.line, "a %s spans only %.3g steps of %.3g", name(o), 2 * r / error, error);
+        else
+            lost.note(o.line, "at a %s the picture spans only %.3g steps of %.3g", name(o), picture / error, error);
+    }
+
+    // Which surfaces lie so close that what is between them is lost? `order` has room for all objects.
+    void pairs(uint32_t* order)
+    {
+        static constexpr Shape kinds[] = {Shape::sphere, Shape::cone, Shape::plane};
+        for (const Shape kind : kinds) {
+            uint32_t count = 0;
+            for (uint32_t i = 0; i < d.object_count; i++)
+                if (kind_of(d.objects[i].shape) == kind)
+                    order[count++] = i;
+            std::sort(order, order + count, [this](uint32_t a, uint32_t b) {
+                const Vec3d u = key(d.objects[a]), v = key(d.objects[b]);
+                return u.x != v.x ? u.x < v.x : u.y != v.y ? u.y < v.y : u.z != v.z ? u.z < v.z : a < b;
+            });
+            for (uint32_t i = 0; i < count; i++)
+                for (uint32_t k = i + 1; k < count && k < i + neighbours; k++) {
+                    const uint32_t first = order[i] < order[k] ? order[i] : order[k];
+                    const uint32_t second = order[i] < order[k] ? order[k] : order[i];
+                    if (key(d.objects[order[k]]).x - key(d.objects[order[i]]).x > Steps<N>::clear_apart * step())
+                        break;
+                    pair(d.objects[first], d.objects[second]);
+                }
+        }
+    }
+
+private:
+    static constexpr uint32_t neighbours = 64;
+
+    const Description& d;
+    const Frame& frame;
+    Warning& lost;
+    const Vec3d forward;
+    const double half; // of the picture's height, at a distance of 1
+
+    // Of a radius, as much as leaves normals of unit length.
+    static double share()
+    {
+        if constexpr (N::is_fixed)
+            return NarrowFixed<N> ? 0x1p-5 : 0x1p-8;
+        else
+            return sqrt(static_cast<double>(N::epsilon)) / 4;
+    }
+
+    double half_diagonal() const { return atan(half * sqrt(1 + pow(double(d.view.width) / d.view.height, 2))); }
+    static const char* name(const Object& o) { return shape_names[static_cast<int>(o.shape)]; }
+
+    // Until it returns false: for each surface no farther than `off` from the text's eye.
+    template <class Visit>
+    void for_each_near(double off, Visit visit) const
+    {
+        for (uint32_t i = 0; i < d.object_count; i++) {
+            const Object& o = d.objects[i];
+            for (uint32_t part = 0; part < surfaces_of(o); part++) {
+                Vec3d outward;
+                double above = 0;
+                const double most = fmin(off, share() * widest(o));
+                if (lies_on(d, o, part, d.view.from, most, outward, above) && !visit(o, part, most))
+                    return;
+            }
+        }
+    }
+
+    uint32_t place_of(const Object& o) const
+    {
+        uint32_t place = 0;
+        for (const Object* p = d.objects; p != &o; p++)
+            place += surfaces_of(*p);
+        return place;
+    }
+
+    // By how much an object may seem to lie beside where it is.
+    double across_view(const Vec3d& middle, const Vec3d& v) const
+    {
+        if constexpr (N::is_fixed) {
+            return step();
+        } else {
+            const auto part = [](double a, double b, double c, double along) {
+                const double m = fmax(fabs(a), fmax(fabs(b), fabs(c)));
+                return m * m * (1 - along * along);
+            };
+            const Vec3d e = frame.eye - frame.origin, m = middle - frame.origin;
+            return static_cast<double>(N::epsilon)
+                * sqrt(fmax(0, part(e.x, m.x, v.x, forward.x) + part(e.y, m.y, v.y, forward.y)
+                                + part(e.z, m.z, v.z, forward.z)));
+        }
+    }
+
+    static Shape kind_of(Shape shape)
+    {
+        return shape == Shape::polygon || shape == Shape::disc ? Shape::plane : shape;
+    }
+
+    // What is flat: its plane, and how to tell what lies on it.
+    Vec3d normal(const Object& o) const
+    {
+        return o.shape == Shape::polygon ? unit(across(d.vertices + o.vertex, o.count)) : unit(o.b);
+    }
+    Vec3d place(const Object& o) const { return o.count != 0 ? d.vertices[o.vertex] : o.a; }
+    Vec3d middle(const Object& o) const
+    {
+        if (o.shape != Shape::polygon)
+            return o.a;
+        Vec3d sum;
+        for (uint32_t i = 0; i < o.count; i++)
+            sum = sum + d.vertices[o.vertex + i];
+        return sum * (1.0 / o.count);
+    }
+    bool covers(const Object& o, const Vec3d& n, const Vec3d& p) const
+    {
+        if (o.shape == Shape::plane)
+            return true;
+        if (o.shape == Shape::disc)
+            return length(p - o.a) < o.ra;
+        const Vec3d u = unit_across(n), w = cross(n, u);
+        bool inside = false;
+        for (uint32_t i = 0, before = o.count - 1; i < o.count; before = i++) {
+            const Vec3d a = d.vertices[o.vertex + i] - p, b = d.vertices[o.vertex + before] - p;
+            const double ay = dot(a, w), by = dot(b, w);
+            if ((ay > 0) != (by > 0) && dot(a, u) + (dot(b, u) - dot(a, u)) * ay / (ay - by) > 0)
+                inside = !inside;
+        }
+        return inside;
+    }
+
+    // What is the same in two objects that fall together comes first.
+    Vec3d key(const Object& o) const
+    {
+        if (o.shape == Shape::sphere)
+            return o.a;
+        if (o.shape == Shape::cone)
+            return (o.a + o.b) * 0.5;
+        return {fabs(dot(place(o) - frame.centre, normal(o))), 0, 0};
+    }
+
+    static bool clear(const Fill& f)
+    {
+        return f.transmit > 0.99 && f.ambient + f.diffuse + f.highlight + f.mirror == 0;
+    }
+
+    // How far apart are they, at most? HUGE_VAL where they have little in common.
+    double apart(const Object& a, const Object& b) const
+    {
+        if (a.shape == Shape::sphere)
+            return fabs(a.ra - b.ra) + length(a.a - b.a);
+        if (a.shape == Shape::cone)
+            return fmin(fmax(fabs(a.ra - b.ra) + length(a.a - b.a), fabs(a.rb - b.rb) + length(a.b - b.b)),
+                        fmax(fabs(a.ra - b.rb) + length(a.a - b.b), fabs(a.rb - b.ra) + length(a.b - b.a)));
+        const Vec3d n = normal(a);
+        if (fabs(dot(n, normal(b))) < 1 - 1e-9 || !(covers(a, n, middle(b)) || covers(b, n, middle(a))))
+            return HUGE_VAL;
+        return fabs(dot(n, place(a) - place(b)));
+    }
+
+    // Are they one surface after rounding?
+    bool same(const Object& a, const Object& b) const
+    {
+        const auto length = [this](double v) { return Convert<N>::length(v * frame.scale); };
+        const Point<N> p = Convert<N>::point(frame.point(place(a))), q = Convert<N>::point(frame.point(place(b)));
+        if (kind_of(a.shape) == Shape::plane) {
+            const Vec3d n = normal(a);
+            return (fabs(n.x) == 1 && p.x == q.x) || (fabs(n.y) == 1 && p.y == q.y) || (fabs(n.z) == 1 && p.z == q.z);
+        }
+        return p == q && length(a.ra * 16) == length(b.ra * 16) && length(a.rb * 16) == length(b.rb * 16);
+    }
+
+    // a stands before b in the text, and so is what is seen where they are one.
+    void pair(const Object& a, const Object& b)
+    {
+        const Fill &f = d.fills[a.fill], &g = d.fills[b.fill];
+        const bool opaque = f.transmit == 0 && g.transmit == 0;
+        const double one = step_at(fmax(largest(frame.eye - frame.origin), largest(place(a) - frame.origin)));
+        const double off = apart(a, b), least = (opaque ? Steps<N>::apart : Steps<N>::clear_apart) * one;
+        if (off > least || off > widest(a) / 16 || (opaque && f == g)
+            || off <= noise(a, widest(a) == HUGE_VAL ? normal(a) : Vec3d{1, 0, 0}, place(b)))
+            return;
+        if (f.transmit == 0 && (clear(g) || in_front(a, b)) && same(a, b))
+            return;
+        lost.note(b.line, "a %s falls together with another surface, that of line %u, %.3g off, where steps are %.3g",
+                  name(b), a.line, off, step());
+    }
+    bool in_front(const Object& a, const Object& b) const
+    {
+        if (kind_of(a.shape) != Shape::plane)
+            return a.ra + a.rb > b.ra + b.rb; // the eye is outside
+        const Vec3d n = normal(a);
+        return dot(n, frame.eye - place(a)) * dot(n, place(a) - place(b)) > 0;
+    }
+};
+
+} // namespace qray::scene

@@ -1,0 +1,98 @@
+// What a number system cannot draw right is said, once, with the line of the first object; and nothing else is. The
+// bounds are what tests/oracle shows: scenes a little coarser are right to 28 dB in q16, 60 in q32, 45 in float.
+#include "scene_helpers.hpp"
+
+#include <string>
+
+namespace {
+
+using namespace qray;
+using namespace qray::test;
+
+template <class N>
+struct ResolutionTest : ::testing::Test {};
+TYPED_TEST_SUITE(ResolutionTest, NumberSystems, SystemNames);
+
+// In a world of +-62: of coordinates near 62, in floating point.
+template <class N>
+constexpr double step = NarrowFixed<N> ? 0x1p-10 : N::is_fixed ? 0x1p-24 : sizeof(typename N::Length) == 4 ? 0x1p-18 : 0x1p-47;
+
+std::string number(double v)
+{
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", v);
+    return text;
+}
+// Its radius is 3, and with a plane its scale 1; objects begin in line 2.
+const std::string view = "v from 0 6 0 at 0 0 0 up 0 0 1 angle 30 hither 0 resolution 160 120 far 60\n";
+
+// The line that is named, 0 for none; once, however often the scene is asked about.
+template <class N>
+uint32_t named(const std::string& text)
+{
+    EXPECT_TRUE(loaded<N>(text)) << text;
+    const scene::Warning& lost = storage<N>().lost;
+    EXPECT_LE(lost.count, 1u) << text;
+    return lost.count != 0 ? lost.line : 0;
+}
+
+TYPED_TEST(ResolutionTest, SurfacesThatFallTogether)
+{
+    using N = TypeParam;
+    const std::string glass = "material transmit 1 diffuse 0 ambient 0 ior 1.4\n", red = "material colour 1 0 0\n";
+    const auto shell = [&](double r) { return view + red + "s 0 0 0 1\n" + glass + "s 0 0 0 " + number(r) + "\n"; };
+    const auto pipe = [&](double r) {
+        return view + red + "c -1 0 0 1 1 0 0 1\n" + glass + "c -1 0 0 " + number(r) + " 1 0 0 " + number(r) + "\n";
+    };
+    const auto decal = [&](double h) {
+        return view + "plane 0 0 0 0 1 0\n" + red + "p 4 -1 " + number(h) + " -1 -1 " + number(h) + " 1 1 " + number(h)
+            + " 1 1 " + number(h) + " -1\n";
+    };
+    const double near = N::is_fixed ? step<N> : step<N> / 32;
+    // Balls and pipes stand alone, with a scale of 16. double itself reads them as one.
+    const uint32_t line = std::is_same_v<N, Double> ? 0 : 5;
+    EXPECT_EQ(named<N>(shell(1 + near / (N::is_fixed ? 16 : 1))), line);
+    EXPECT_EQ(named<N>(pipe(1 + near / (N::is_fixed ? 16 : 1))), line);
+    EXPECT_EQ(named<N>(decal(near / 2)), 4u);
+    EXPECT_EQ(named<N>(decal(-near / 2)), 0u); // not seen
+    EXPECT_EQ(named<N>(shell(1 + 100 * step<N>)), 0u);
+    EXPECT_EQ(named<N>(pipe(1 + 100 * step<N>)), 0u);
+    EXPECT_EQ(named<N>(decal(100 * step<N>)), 0u);
+    // What is one surface by the text is said to be so there.
+    EXPECT_EQ(named<N>(shell(1)), 0u);
+    EXPECT_EQ(named<N>(decal(0)), 0u);
+    // Tiles of a floor, and balls that touch.
+    EXPECT_EQ(named<N>(view + "p 4 0 0 0 1 0 0 1 0 1 0 0 1\n" + red + "p 4 1 0 0 2 0 0 2 0 1 1 0 1\n s -1 1 0 1 s 1 1 0 1"), 0u);
+}
+
+TYPED_TEST(ResolutionTest, WhatSpansFewSteps)
+{
+    using N = TypeParam;
+    const auto ball = [](double away) {
+        const double angle = 2 * std::atan(1.5 / away) * 180 / M_PI;
+        return "v from " + number(0.48 * away) + " " + number(0.6 * away) + " " + number(0.64 * away)
+            + " at 0 0 0 up 0 1 0 angle " + number(angle) + " hither 0 resolution 160 120\ns 0 0 0 1\n";
+    };
+    const double far = NarrowFixed<N> ? 1e3 : N::is_fixed ? 1e6 : sizeof(typename N::Length) == 4 ? 1e5 : 1e9;
+    EXPECT_EQ(named<N>(ball(far)), 2u);
+    EXPECT_EQ(named<N>(ball(far / 100)), 0u);
+    // Out of view, or far smaller than a pixel.
+    const std::string wide = "v from 0 0 0 at " + number(far) + " 0 0 up 0 1 0 angle 30 hither 0 resolution 160 120\n";
+    EXPECT_EQ(named<N>(wide + "s 0 0 " + number(far) + " " + number(far / 4) + "\n"), 0u);
+    EXPECT_EQ(named<N>(wide + "s " + number(far) + " 0 0 " + number(far / 4) + "\n"), 0u);
+}
+
+// Between two floors there is no room to stand off both.
+TYPED_TEST(ResolutionTest, EyeThatFallsOntoASurface)
+{
+    using N = TypeParam;
+    const double h = step<N> / 4;
+    const std::string eye = "v from 0 " + number(h) + " 0 at 5 0 0 up 0 1 0 angle 30 hither 0 resolution 160 120 far 60\n";
+    ASSERT_TRUE(loaded<N>(eye + "plane 0 0 0 0 1 0\nplane 0 " + number(2 * h) + " 0 0 1 0\n"));
+    EXPECT_GE(storage<N>().lost.count, 1u);
+    EXPECT_EQ(storage<N>().lost.line, 2u);
+    EXPECT_EQ(named<N>(eye + "plane 0 0 0 0 1 0\n"), 0u);
+    EXPECT_EQ(named<N>(eye + "plane 0 0 0 0 1 0\nplane 0 0 " + number(-h) + " 0 0 1\n"), 0u); // a corner
+}
+
+} // namespace
