@@ -2,6 +2,7 @@
 #pragma once
 
 #include "number_helpers.hpp"
+#include "roomy.hpp"
 
 #include "../src/scene/builder.hpp"
 
@@ -12,16 +13,11 @@
 
 namespace qray::test {
 
-inline scene::Description& description()
-{
-    static scene::Description d;
-    return d;
-}
+inline scene::Description& description() { return kept<scene::Description>(); }
 template <class N>
 scene::Storage<N>& storage()
 {
-    static scene::Storage<N> s;
-    return s;
+    return kept<scene::Storage<N>>();
 }
 
 // Parses and builds into storage<N>().

@@ -1,4 +1,5 @@
 #include "../src/scene/description.hpp"
+#include "roomy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@ namespace {
 
 using namespace qray::scene;
 
-Description scene;
+Description& scene = qray::test::kept<Description>();
 Error error;
 
 // The copy has exactly the text's size, so that a sanitizer sees the parser read beyond it.

@@ -1,5 +1,6 @@
 #include "draw.hpp"
 
+#include <errno.h>
 #include <pthread.h>
 #include <sched.h>
 #include <stdio.h>
@@ -11,9 +12,10 @@ namespace qray::cli {
 
 namespace {
 
-// Rows wait here until all above them are written: one of the widest picture for each thread, or many.
-uint8_t pool[size_t{max_threads} * scene::Limits::resolution * 3];
+// Rows wait in slots until all above them are written: at least one of the widest picture for each thread.
+constexpr size_t pool_bytes = size_t{max_threads} * scene::Limits::resolution * 3;
 constexpr uint32_t max_slots = 4096;
+constexpr size_t stack_bytes = 256 << 10; // of a thread: an eighth is used, and more where sanitizers look on
 
 uint32_t least(uint32_t a, uint32_t b) { return a < b ? a : b; }
 uint32_t most(uint32_t a, uint32_t b) { return a > b ? a : b; }
@@ -27,11 +29,15 @@ public:
     {
         // Small blocks, so that no thread waits long for another at the end; of some pixels each, to pay for
         // taking one.
-        const uint32_t room = static_cast<uint32_t>(sizeof pool / stride);
         block_rows = most(least(height / (32 * threads), 1024 / picture.width), 1);
         blocks = (height + block_rows - 1) / block_rows;
-        slots = least(room / block_rows, max_slots);
+        slots = least(least(static_cast<uint32_t>(pool_bytes / stride) / block_rows, max_slots), blocks);
     }
+    ~Drawing() { give_back(pool); }
+    Drawing(const Drawing&) = delete;
+    Drawing& operator=(const Drawing&) = delete;
+
+    bool has_memory() { return make_room(pool, size_t{slots} * block_rows * stride); }
 
     // What each thread does.
     void work()
@@ -56,7 +62,7 @@ public:
     RayCounts counts;
 
 private:
-    uint8_t* slot(uint32_t block) const { return pool + size_t{block % slots} * block_rows * stride; }
+    uint8_t* slot(uint32_t block) const { return pool.at + size_t{block % slots} * block_rows * stride; }
 
     bool wait_for_slot(uint32_t block)
     {
@@ -96,6 +102,7 @@ private:
     Output& output;
     Progress& progress;
     uint32_t block_rows, blocks, slots;
+    scene::Room pool;
     std::atomic<uint32_t> next{0};
     pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER; // for all below, but that `written` is the writer's to read
     pthread_cond_t slot_is_free = PTHREAD_COND_INITIALIZER;
@@ -124,16 +131,21 @@ uint32_t thread_count(uint32_t asked)
 bool draw_picture(const Renderer& renderer, const Built& picture, uint32_t threads, Output& output,
                   Progress& progress, RayCounts& counts)
 {
+    Drawing drawing(renderer, picture, threads, output, progress);
+    if (!drawing.has_memory())
+        return output.fail("draw", ENOMEM);
     char head[32];
     const int length = snprintf(head, sizeof head, "P6\n%u %u\n255\n", picture.width, picture.height);
     if (!output.write(head, static_cast<size_t>(length)))
         return false;
-    Drawing drawing(renderer, picture, threads, output, progress);
+    pthread_attr_t small;
+    pthread_attr_init(&small);
+    pthread_attr_setstacksize(&small, stack_bytes);
     pthread_t others[max_threads];
     uint32_t started = 0;
     // Where no thread can be had, fewer do.
     while (started + 1 < least(threads, drawing.block_count())
-           && pthread_create(&others[started], nullptr, work, &drawing) == 0)
+           && pthread_create(&others[started], &small, work, &drawing) == 0)
         started++;
     drawing.work();
     for (uint32_t i = 0; i < started; i++)

@@ -1,6 +1,7 @@
 #include "input.hpp"
 
 #include "../scene/reader.hpp"
+#include "memory.hpp"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -9,11 +10,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 namespace qray::cli {
 
 namespace {
 
-char text[scene::Limits::text + 1]; // one more, to see that a file is too long
 struct stat scene_file;
 
 bool failed(scene::Error& error, const char* path, const char* what)
@@ -22,12 +24,17 @@ bool failed(scene::Error& error, const char* path, const char* what)
     return false;
 }
 
-// Bytes read, or -1 and errno.
-ptrdiff_t read_all(int file)
+// Bytes read, or -1 and errno. `expected` is how many there should be, and may be wrong.
+ptrdiff_t read_all(int file, size_t expected, scene::Room& text)
 {
+    constexpr size_t most = scene::Limits::text + 1; // one more, to see that a file is too long
     size_t size = 0;
-    while (size < sizeof text) {
-        const ssize_t got = read(file, text + size, sizeof text - size);
+    while (size < most) {
+        if (size == text.size && !grow_room(text, std::min(size == 0 ? expected + 1 : 2 * size, most))) {
+            errno = ENOMEM;
+            return -1;
+        }
+        const ssize_t got = read(file, text.at + size, text.size - size);
         if (got == 0)
             break;
         if (got < 0 && errno != EINTR)
@@ -49,7 +56,9 @@ bool read_scene(const char* path, scene::Description& description, scene::Error&
         errno = EISDIR;
         return failed(error, path, "open");
     }
-    const ptrdiff_t size = read_all(file);
+    const size_t expected = S_ISREG(scene_file.st_mode) ? static_cast<size_t>(scene_file.st_size) : 65535;
+    scene::Room text;
+    const ptrdiff_t size = read_all(file, expected, text);
     if (size < 0)
         return failed(error, path, "read");
     if (!standard)
@@ -59,7 +68,14 @@ bool read_scene(const char* path, scene::Description& description, scene::Error&
                  scene::ShownName(path).text, scene::Limits::text);
         return false;
     }
-    return scene::parse(path, text, static_cast<size_t>(size), description, error);
+    const size_t bytes = static_cast<size_t>(size);
+    if (!make_room(description.room, description.lay_out(bytes))) {
+        errno = ENOMEM;
+        return failed(error, path, "read");
+    }
+    const bool good = scene::parse(path, reinterpret_cast<const char*>(text.at), bytes, description, error);
+    give_back(text);
+    return good;
 }
 
 bool is_scene_file(const char* path)

@@ -4,6 +4,9 @@
 #include "load.hpp"
 #include "stats.hpp"
 
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -53,6 +56,21 @@ int draw_main(int argc, char** argv)
     return 0;
 }
 
+// So that no file that is opened later takes the place of one of the three, and is written to in its name.
+void keep_standard_files()
+{
+    for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(file, F_GETFD) < 0)
+            open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY); // using it still fails
+}
+
+int run(int argc, char** argv)
+{
+    if (argc > 1 && strcmp(argv[1], "compile") == 0)
+        return compile_main(argc - 1, argv + 1);
+    return draw_main(argc, argv);
+}
+
 } // namespace
 
 } // namespace qray::cli
@@ -60,7 +78,14 @@ int draw_main(int argc, char** argv)
 int main(int argc, char** argv)
 {
     using namespace qray::cli;
-    if (argc > 1 && strcmp(argv[1], "compile") == 0)
-        return compile_main(argc - 1, argv + 1);
-    return draw_main(argc, argv);
+    keep_standard_files();
+    if (!has_memory_to_start())
+        return 1;
+    for (const int which : {SIGPIPE, SIGXFSZ}) // what writes tells
+        signal(which, SIG_IGN);
+    const int status = run(argc, argv);
+    if (fflush(stdout) == 0 && ferror(stdout) == 0)
+        return status;
+    fprintf(stderr, "qray: cannot write: %s\n", strerror(errno));
+    return 1;
 }

@@ -27,6 +27,51 @@ void interrupted(int which)
     raise(which);
 }
 
+// For every signal that would end this process; but not for what is ignored, as nohup has it.
+void catch_signals()
+{
+    for (int which = 1; which <= SIGRTMAX; which++) {
+        struct sigaction old;
+        if (sigaction(which, nullptr, &old) != 0 || old.sa_handler != SIG_DFL)
+            continue;
+        switch (which) {
+        case SIGKILL: // nobody catches this,
+        case SIGCHLD: // and these end nothing
+        case SIGCONT:
+        case SIGSTOP:
+        case SIGTSTP:
+        case SIGTTIN:
+        case SIGTTOU:
+        case SIGURG:
+        case SIGWINCH:
+            break;
+        default:
+            signal(which, interrupted);
+        }
+    }
+}
+
+// Where the links from `target` lead, which may not exist. False, and errno, where that is too long or endless.
+bool follow_links()
+{
+    char next[PATH_MAX];
+    for (int links = 0; links < 40; links++) {
+        const ssize_t length = readlink(target, next, sizeof next);
+        if (length < 0)
+            return true;
+        const char* slash = strrchr(target, '/');
+        const size_t folder = next[0] == '/' || slash == nullptr ? 0 : static_cast<size_t>(slash + 1 - target);
+        if (folder + static_cast<size_t>(length) >= sizeof target) {
+            errno = ENAMETOOLONG;
+            return false;
+        }
+        memcpy(target + folder, next, static_cast<size_t>(length));
+        target[folder + static_cast<size_t>(length)] = 0;
+    }
+    errno = ELOOP;
+    return false;
+}
+
 // A name of this process in the target's folder. False where it does not fit.
 bool name_temporary()
 {
@@ -61,7 +106,6 @@ Output::~Output()
 bool Output::open(const char* name)
 {
     name_ = name;
-    signal(SIGPIPE, SIG_IGN); // write() tells
     if (strcmp(name, "-") == 0) {
         file_ = STDOUT_FILENO;
         return true;
@@ -73,17 +117,15 @@ bool Output::open(const char* name)
         return file_ >= 0 || fail("open", errno);
     }
     // Behind a link, the file itself is replaced; and one that must not be written to is not.
-    if (exists && (realpath(name, target) == nullptr || access(target, W_OK) != 0))
-        return fail("open", errno);
-    if (!exists && snprintf(target, sizeof target, "%s", name) >= static_cast<int>(sizeof target))
+    if (snprintf(target, sizeof target, "%s", name) >= static_cast<int>(sizeof target))
         return fail("open", ENAMETOOLONG);
+    if (!follow_links() || (exists && access(target, W_OK) != 0))
+        return fail("open", errno);
     if (!name_temporary()) {
         temporary[0] = 0;
         return fail("open", ENAMETOOLONG);
     }
-    for (const int which : {SIGINT, SIGTERM, SIGHUP})
-        if (signal(which, interrupted) == SIG_IGN) // as nohup has it
-            signal(which, SIG_IGN);
+    catch_signals();
     unlink(temporary); // left by an earlier process of that number
     file_ = ::open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file_ < 0) {

@@ -18,10 +18,10 @@ public:
     bool open(const char* name);
     bool write(const void* bytes, size_t size);
     bool commit();
+    bool fail(const char* what, int error); // "cannot `what`: ", with the error's text; returns false
     void report() const;
 
 private:
-    bool fail(const char* what, int error);
 
     const char* name_ = nullptr;
     const char* failed_ = "";

@@ -2,8 +2,6 @@
 
 namespace qray::cli {
 
-alignas(64) uint8_t q32_pages[size_t{360} << 20], float_pages[size_t{216} << 20];
-
 namespace {
 
 // Has the processor what lanes_*.cpp are compiled for? What has all of these counts leading zeros, too.

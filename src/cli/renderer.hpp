@@ -1,10 +1,9 @@
-// A number system as the command sees it: it builds a scene into static storage of its own, then draws rows.
+// A number system as the command sees it: it builds a scene into storage of its own, then draws rows.
 #pragma once
-
-#include <new>
 
 #include "../scene/emitter.hpp"
 #include "kernel.hpp"
+#include "memory.hpp"
 #include "options.hpp"
 
 namespace qray::cli {
@@ -47,30 +46,11 @@ uint32_t table_bytes(const scene::Storage<N>& s)
     return static_cast<uint32_t>(sum);
 }
 
-// Where float and q32 have their tables. Those with vectors in registers are larger and share the pages, as one of the
-// two is used; with pages of their own the program would be too large for valgrind.
-alignas(64) extern uint8_t q32_pages[size_t{360} << 20], float_pages[size_t{216} << 20];
-
-template <class Storage, size_t size>
-Storage& placed_in(uint8_t (&pages)[size])
-{
-    static_assert(sizeof(Storage) <= size && alignof(Storage) <= 64);
-    return *std::launder(reinterpret_cast<Storage*>(pages));
-}
-
-template <class N>
-struct OwnStorage {
-    static inline scene::Storage<N> storage;
-};
 template <class N>
 scene::Storage<N>& storage_of()
 {
-    if constexpr (std::is_same_v<N, q32>)
-        return placed_in<scene::Storage<N>>(q32_pages);
-    else if constexpr (std::is_same_v<N, Float>)
-        return placed_in<scene::Storage<N>>(float_pages);
-    else
-        return OwnStorage<N>::storage;
+    static scene::Storage<N> storage;
+    return storage;
 }
 
 template <class N>
@@ -79,6 +59,10 @@ struct RendererOf {
                       scene::Error& error)
     {
         scene::Storage<N>& storage = storage_of<N>();
+        if (!make_room(storage.room, storage.lay_out(description))) {
+            snprintf(error.text, sizeof error.text, "not enough memory for the scene");
+            return false;
+        }
         if (!scene::Builder<N>(description, settings, storage).build(error))
             return false;
         built = {storage.camera.width, storage.camera.height, storage.effects, storage.vanished,

@@ -14,6 +14,7 @@ namespace qray::scene {
 template <class N>
 class Builder {
 public:
+    // `into` has the room that into.lay_out(from) asks for.
     Builder(const Description& from, const Settings& with, Storage<N>& into) : d(from), settings(with), s(into) {}
 
     // False, and a reason in `error` without a place, where the scene does not fit the number system.
@@ -21,11 +22,16 @@ public:
     {
         if (!few_enough(error))
             return false;
-        reset();
+        if (s.lay_out(d) > s.room.size) {
+            snprintf(error.text, sizeof error.text, "not enough memory");
+            return false;
+        }
+        s.vanished = 0;
+        s.lost.clear();
         fit();
         if (!fine_enough(error))
             return false;
-        resolution.pairs(s.order);
+        resolution.pairs(s.order.data);
         // Patches first: a corner's normal has the number of the corner, and polygons need none.
         for (const bool patches : {true, false}) {
             place = 0;
@@ -92,18 +98,6 @@ private:
                 }
         }
         return true;
-    }
-
-    void reset()
-    {
-        s.spheres.count = s.discs.count = s.cones.count = s.polygons.count = s.patches.count = 0;
-        s.vertices.count = s.normals.count = 0;
-        s.mattes.count = s.highlights.count = s.mirrors.count = s.transmits.count = s.textures.count = 0;
-        s.checkers.count = s.stripes.count = s.gradients.count = s.rings.count = s.noises.count = 0;
-        s.marbles.count = s.woods.count = s.bricks.count = 0;
-        s.lights.count = s.suns.count = 0;
-        s.vanished = 0;
-        s.lost.clear();
     }
 
     void fit()

@@ -1,5 +1,5 @@
 // What a scene text says, in double precision and in the file's own units and order: the parser's
-// result and the builder's input. Fixed arrays; a desktop touches only the pages that a scene fills.
+// result and the builder's input. Arrays lie in memory that the caller hands in.
 //
 // What parse() promises of all lengths, so that neither their fourth powers nor quotients of two squares
 // leave double's range: every coordinate is at most 1e15 in size; of each direction, normal and axis, of
@@ -15,6 +15,7 @@
 
 #include <qray/scene/lists.hpp>
 
+#include "room.hpp"
 #include "vec3d.hpp"
 
 namespace qray::scene {
@@ -38,6 +39,7 @@ struct View {
 };
 
 using qray::TextureKind;
+constexpr int texture_count = static_cast<int>(TextureKind::brick) + 1; // none among them
 
 struct Texture {
     TextureKind kind = TextureKind::none;
@@ -62,6 +64,7 @@ struct Light {
 };
 
 enum class Shape : uint8_t { sphere, cone, polygon, patch, plane, disc };
+constexpr int shape_count = static_cast<int>(Shape::disc) + 1;
 
 struct Object {
     Shape shape = Shape::sphere;
@@ -102,14 +105,30 @@ struct Description {
     uint32_t dropped_line = 0; // of the first
     Warning nonplanar{}; // polygons of which a corner is off the plane by more than 1 % of their size
     char comment[256] = {}; // the first comment that says something, without its '#'; else empty
-    // Left as they are until the parser fills them: nobody writes a hundred megabytes to start.
-    union { Object objects[Limits::objects]; };
-    union { Vec3d vertices[Limits::vertices]; };
-    union { Vec3d normals[Limits::vertices]; }; // patches only, at the corner's index, as given
-    union { Fill fills[Limits::materials]; };
-    union { Light lights[Limits::lights]; };
+    Room room; // the caller's, for what follows
+    Object* objects = nullptr;
+    Vec3d* vertices = nullptr;
+    Vec3d* normals = nullptr; // patches only, at the corner's index, as given
+    Fill* fills = nullptr;
+    Light lights[Limits::lights];
 
-    Description() {}
+    // Cuts arrays for so many, and as many fills as objects, from the room where it is large enough; returns how many
+    // bytes it must have.
+    size_t lay_out(uint32_t most_objects, uint32_t most_vertices)
+    {
+        return lay_out_in(room, [&](Layout& layout) {
+            objects = layout.array<Object>(most_objects);
+            vertices = layout.array<Vec3d>(most_vertices);
+            normals = layout.array<Vec3d>(most_vertices);
+            fills = layout.array<Fill>(most_objects < Limits::materials ? most_objects : Limits::materials);
+        });
+    }
+    // As many as a text of that size can hold: "s 0 0 0 1 " takes 10 bytes, "0 0 0 " of a corner 6.
+    size_t lay_out(size_t text)
+    {
+        const auto most = [](size_t n, uint32_t limit) { return n < limit ? static_cast<uint32_t>(n) : limit; };
+        return lay_out(most(text / 10 + 1, Limits::objects), most(text / 6 + 1, Limits::vertices));
+    }
 };
 
 // One line for people: file:line:column: text.
@@ -117,8 +136,7 @@ struct Error {
     char text[512] = {};
 };
 
-// Reads the scene text of `size` bytes into `out` (reset first, but for what lies in its arrays beyond the
-// counts; it is too large for a stack). `name` stands in messages. Returns false, fills `error` and leaves
+// Reads the scene text of `size` bytes into `out` (reset first), whose room has out.lay_out(size) bytes. `name` stands in messages. Returns false, fills `error` and leaves
 // `out` unspecified where the text is no scene of scenes/README.md. Every rule of the language that does not depend
 // on a number system is checked here. Threads may parse into different Descriptions.
 bool parse(const char* name, const char* text, size_t size, Description& out, Error& error);

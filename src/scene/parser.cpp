@@ -463,6 +463,7 @@ bool Parser::parse() {
     if (size_ > Limits::text) {
         return fail({}, "a text of %zu bytes; expected at most %u (limit 'text')", size_, Limits::text);
     }
+    if (out_.lay_out(size_) > out_.room.size) return fail({}, "not enough memory");
     for (;;) {
         const Token before = entity_;
         entity_ = token_ = lexer_.next();

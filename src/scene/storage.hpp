@@ -1,8 +1,6 @@
-// The fixed arrays of a desktop's scene, for one number system: what the builder fills and every Scene<N, E>
-// can look at. Tables are as long as the limits; only the pages that a scene touches cost memory.
+// The tables of a desktop's scene, for one number system: what the builder fills and every Scene<N, E> can look at.
+// They lie in the caller's memory, as long as the description can make them.
 #pragma once
-
-#include <type_traits>
 
 #include <qray/scene/scene.hpp>
 
@@ -10,12 +8,10 @@
 
 namespace qray::scene {
 
-template <class T, uint32_t Capacity>
+template <class T>
 struct Array {
-    // Or starting would write to all of it, where only the pages that a scene touches should cost.
-    static_assert(std::is_trivially_default_constructible_v<T>);
     uint32_t count;
-    T data[Capacity];
+    T* data;
 
     T& push()
     {
@@ -46,36 +42,85 @@ struct Storage {
     uint32_t vanished; // objects smaller than the number system's resolution
     Warning lost;      // these, and whatever else it cannot draw right
 
-    Array<Sphere<N>, Limits::objects> spheres;
-    Array<Disc<N>, Limits::objects> discs;
-    Array<Cone<N>, Limits::objects> cones;
-    Array<Polygon<N>, Limits::objects> polygons;
-    Array<Patch<N>, Limits::vertices> patches;
-    Array<Point<N>, Limits::vertices> vertices;
-    Array<Direction<N>, Limits::vertices> normals;
+    Room room; // the caller's, for all below
 
-    static constexpr uint32_t shape_limit = Limits::objects + Limits::vertices;
-    Array<ShapeId, shape_limit + bound_lanes> shape_ids;
-    Array<BallBlock, shape_limit / (bound_lanes - 1) + 64> blocks;
+    Array<Sphere<N>> spheres;
+    Array<Disc<N>> discs;
+    Array<Cone<N>> cones;
+    Array<Polygon<N>> polygons;
+    Array<Patch<N>> patches;
+    Array<Point<N>> vertices;
+    Array<Direction<N>> normals;
+
+    Array<ShapeId> shape_ids;
+    Array<BallBlock> blocks;
     Tree tree;
-    uint32_t order[Limits::objects]; // for the builder to sort
+    Array<uint32_t> order; // of objects, for the builder to sort
 
-    Array<Matte<N>, Limits::materials> mattes;
-    Array<Highlight<N>, Limits::materials> highlights;
-    Array<Mirror<N>, Limits::materials> mirrors;
-    Array<Transmit<N>, Limits::materials> transmits;
-    Array<TextureRef, Limits::materials> textures;
-    Array<Checker<N>, Limits::materials> checkers;
-    Array<Stripes<N>, Limits::materials> stripes;
-    Array<Gradient<N>, Limits::materials> gradients;
-    Array<Rings<N>, Limits::materials> rings;
-    Array<Noise<N>, Limits::materials> noises;
-    Array<Marble<N>, Limits::materials> marbles;
-    Array<Wood<N>, Limits::materials> woods;
-    Array<Brick<N>, Limits::materials> bricks;
+    Array<Matte<N>> mattes;
+    Array<Highlight<N>> highlights;
+    Array<Mirror<N>> mirrors;
+    Array<Transmit<N>> transmits;
+    Array<TextureRef> textures;
+    Array<Checker<N>> checkers;
+    Array<Stripes<N>> stripes;
+    Array<Gradient<N>> gradients;
+    Array<Rings<N>> rings;
+    Array<Noise<N>> noises;
+    Array<Marble<N>> marbles;
+    Array<Wood<N>> woods;
+    Array<Brick<N>> bricks;
 
-    Array<qray::Light<N>, Limits::lights> lights;
-    Array<Sun<N>, Limits::lights> suns;
+    Array<qray::Light<N>> lights;
+    Array<Sun<N>> suns;
+
+    // Cuts empty tables from the room where it is large enough; returns how many bytes it must have.
+    size_t lay_out(const Description& d)
+    {
+        uint32_t objects[shape_count] = {}, corners = 0, patch_corners = 0, with[texture_count] = {};
+        for (uint32_t i = 0; i < d.object_count; i++) {
+            const Object& o = d.objects[i];
+            objects[static_cast<int>(o.shape)]++;
+            corners += o.count;
+            patch_corners += o.shape == Shape::patch ? o.count : 0;
+        }
+        for (uint32_t i = 0; i < d.fill_count; i++)
+            with[static_cast<int>(d.fills[i].texture.kind)]++;
+        const auto of = [&objects](Shape shape) { return objects[static_cast<int>(shape)]; };
+        const auto textured = [&with](TextureKind kind) { return with[static_cast<int>(kind)]; };
+        const uint32_t triangles = patch_corners - 2 * of(Shape::patch);
+        const uint32_t shapes = d.object_count - of(Shape::patch) + triangles;
+        return lay_out_in(room, [&](Layout& layout) {
+            const auto cut = [&layout]<class T>(Array<T>& array, uint32_t count) {
+                array = {0, layout.array<T>(count)};
+            };
+            cut(spheres, of(Shape::sphere));
+            cut(discs, of(Shape::disc) + of(Shape::plane));
+            cut(cones, of(Shape::cone));
+            cut(polygons, of(Shape::polygon));
+            cut(patches, triangles);
+            cut(vertices, corners);
+            cut(normals, patch_corners);
+            cut(shape_ids, shapes + bound_lanes);
+            cut(order, d.object_count);
+            cut(blocks, shapes / (bound_lanes - 1) + 64);
+            cut(mattes, d.fill_count);
+            cut(highlights, d.fill_count);
+            cut(mirrors, d.fill_count);
+            cut(transmits, d.fill_count);
+            cut(textures, d.fill_count);
+            cut(checkers, textured(TextureKind::checker));
+            cut(stripes, textured(TextureKind::stripes));
+            cut(gradients, textured(TextureKind::gradient));
+            cut(rings, textured(TextureKind::rings));
+            cut(noises, textured(TextureKind::noise));
+            cut(marbles, textured(TextureKind::marble));
+            cut(woods, textured(TextureKind::wood));
+            cut(bricks, textured(TextureKind::brick));
+            cut(lights, d.light_count); // one that is far away becomes a sun
+            cut(suns, d.light_count);
+        });
+    }
 
     // The scene as a tracer for E reads it; E.holds(effects).
     template <Effects E>

@@ -6,7 +6,7 @@
 
 #include <qray/picture/render.hpp>
 
-#include "../zeroed.hpp"
+#include "../roomy.hpp"
 #include "scene/builder.hpp"
 
 namespace {

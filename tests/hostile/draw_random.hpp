@@ -6,7 +6,7 @@
 
 #include <qray/picture/render.hpp>
 
-#include "../zeroed.hpp"
+#include "../roomy.hpp"
 #include "random_scene.hpp"
 #include "scene/builder.hpp"
 

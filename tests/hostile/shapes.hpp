@@ -7,7 +7,7 @@
 
 #include <qray/qray.hpp>
 
-#include "../zeroed.hpp"
+#include "../roomy.hpp"
 #include "numbers.hpp"
 #include "scene/builder.hpp"
 
@@ -21,16 +21,18 @@ inline constexpr double reach = 35;
 
 template <class N>
 struct Bench {
-    qray::test::Zeroed<qray::scene::Description> description;
-    qray::test::Zeroed<qray::scene::Storage<N>> stored;
-    qray::scene::Description& from = *description.at;
-    qray::scene::Storage<N>& storage = *stored.at;
+    qray::test::Roomy<qray::scene::Description> description;
+    qray::test::Roomy<qray::scene::Storage<N>> stored;
+    qray::scene::Description& from = description.at;
+    qray::scene::Storage<N>& storage = stored.at;
 
     Bench()
     {
         from.view = {{-reach, -reach, -reach}, {reach, reach, reach}, {0, 1, 0}, 45, 1, 1};
         from.far = world - 0.25; // of itself it would halve the scale
         from.ambient = {0.2, 0.2, 0.2};
+        from.lay_out(1 << 16, 1 << 18);
+        storage.lay_out(from); // the only shape's table lies at the room's beginning, now and after build()
         from.fill_count = from.object_count = 1;
         from.fills[0] = {};
     }
