@@ -52,6 +52,13 @@ std::string comment(const std::string& text) {
 constexpr TokenKind word = TokenKind::word, number = TokenKind::number, end = TokenKind::end,
                     bad = TokenKind::bad;
 
+TEST(Lexer, SkipsAByteOrderMark) {
+    const std::vector<Seen> expected = {{"s", 1, 1, word}, {"0", 1, 3, number}, {"", 1, 4, end}};
+    EXPECT_EQ(tokens("\xef\xbb\xbfs 0"), expected);
+    EXPECT_EQ(tokens("\xef\xbb\xbf"), std::vector<Seen>({{"", 1, 1, end}}));
+    EXPECT_EQ(tokens("\xef\xbb"), std::vector<Seen>({{"\xef", 1, 1, bad}}));
+}
+
 TEST(Lexer, SplitsAtWhiteSpaceAndComments) {
     const std::vector<Seen> expected = {
         {"s", 1, 1, word},     {"0", 1, 4, number}, {"-1", 2, 1, number}, {".5", 3, 2, number},

@@ -486,7 +486,18 @@ TEST(ParserError, Structure) {
         {VIEW "@s0 0 0 1", "unknown entity 's0'"},
         {VIEW "@ppp", "unknown entity 'ppp'"},
         {VIEW "@\"s\"", "unknown entity '\"s\"'"},
-        {VIEW "material\n\n@colours", "unknown entity 'colours'"},
+        {VIEW "material\n\n@colours",
+         "unknown word 'colours' in 'material'; did you mean 'colour'? expected one of colour ambient diffuse "
+         "highlight shine mirror transmit ior, or an entity"},
+        {VIEW "material colour 1 1 1 @Defuse 1", "did you mean 'diffuse'? expected one of colour ambient"},
+        {VIEW "material @color 1 0 0", "did you mean 'colour'?"},
+        {VIEW "material @trasnmit 1", "did you mean 'transmit'?"},
+        {VIEW "material @ball 0 0 0 1", "unknown word 'ball' in 'material'; expected one of colour ambient"},
+        {VIEW "material shine 3 @palne 0 0 0", "unknown entity 'palne'; did you mean 'plane'? expected one of v b l"},
+        {VIEW "@Material shine 3", "unknown entity 'Material'; did you mean 'material'? expected"},
+        {VIEW "@ambient_light 1 1 1", "unknown entity 'ambient_light'; did you mean 'ambientlight'? expected"},
+        {VIEW "@dics 0 0 0", "unknown entity 'dics'; did you mean 'disc'? expected"},
+        {VIEW "@S 0 0 0 1", "unknown entity 'S'; did you mean 's'? expected"},
         {VIEW "@colour 1 0 0", "found 'colour', which stands in 'material'"},
         {VIEW "s 0 0 0 1 @shine 3", "found 'shine', which stands in 'material'"},
         {VIEW "@at 0 0 0", "found 'at', which stands in 'v'"},
@@ -524,7 +535,6 @@ TEST(ParserError, Bytes) {
         {view + "s 0 @" + std::string(1, '\0') + " 0 1", "0x00"},
         {view + "s 0 0 0 1@\x1b[0m", "0x1b"},
         {view + "@\x7f", "0x7f"},
-        {"@\xef\xbb\xbf" + view, "0xef"},
         {view + "material @\x80", "0x80"},
         {view + "l 1 2 3 @\xff", "0xff"},
         {view + "texture @\x01", "0x01"},
@@ -650,14 +660,10 @@ TEST(ParserError, Ranges) {
         {"f @1.1 1 1 1 1 1 1 1", "red of the colour of a fill is 1.1; expected a number from 0 to 1"},
         {"f 1 @-0.5 1 1 1 1 1 1", share},
         {"f 1 1 @1.0000000000000003 1 1 1 1 1", share},
-        {"f 1 1 1 @1.5 1 1 1 1", "Kd of a fill is 1.5"},
-        {"f 1 1 1 1 @-1 1 1 1", "Ks of a fill is -1"},
         {"f 1 1 1 1 1 @-0.5 1 1", "the shine of a fill is -0.5; expected a number from 0 to 1e6"},
         {"f 1 1 1 1 1 @1000001 1 1", shine},
-        {"f 1 1 1 1 1 1 @2 1", "T of a fill is 2"},
-        {"f 1 1 1 1 1 1 1 @8.1", "the ior of a fill is 8.1; expected a number from 0.125 to 8"},
-        {"f 1 1 1 1 1 1 1 @0.12", ior},
-        {"f 1 1 1 1 1 1 1 @1e-300", ior},
+        {"material ior @0.12", ior},
+        {"material ior @1e-300", ior},
         {"material colour 0 0 @2", "blue of 'colour' is 2; expected a number from 0 to 1"},
         {"material ambient @1.1", "'ambient' is 1.1; expected a number from 0 to 1"},
         {"material diffuse @-0.1", "'diffuse' is -0.1; expected a number from 0 to 1"},
@@ -710,6 +716,7 @@ TEST(ParserError, Shapes) {
         {VIEW "texture @tartan 0 0 0 1",
          "expected a texture (checker stripes gradient rings noise marble wood brick), "
          "found 'tartan'"},
+        {VIEW "texture @marbel 0 0 0 1", "unknown texture 'marbel'; did you mean 'marble'? expected one of checker stripes"},
         {VIEW "texture@", "the file ends where a texture"},
         {VIEW "texture @1", "expected a texture"},
         {VIEW "texture brick 0 0 0@", "the file ends where the size of a texture was expected"},
@@ -798,6 +805,75 @@ TEST(ParserLimit, Materials) {
         ASSERT_EQ(scene.objects[i + 4096].fill, i);
     }
     expect_error(text + "@s 0 0 0 1", "too many different fills; expected at most 4096 (limit 'materials')");
+}
+
+// As NFF bounds none of them; a colour and the shine are still errors.
+TEST(Parser, ClampsWhatOneLetterFillsHaveOutOfRange) {
+    const Fill fill = fill_after("f 1 1 1 1.5 -1 5 2 9");
+    EXPECT_EQ(fill.ambient, 1);
+    EXPECT_EQ(fill.diffuse, 1);
+    EXPECT_EQ(fill.highlight, 0);
+    EXPECT_EQ(fill.mirror, 0);
+    EXPECT_EQ(fill.shine, 5);
+    EXPECT_EQ(fill.transmit, 1);
+    EXPECT_EQ(fill.ior, 8);
+    EXPECT_EQ(scene.clamped, 4u);
+    EXPECT_STREQ(scene.first_clamped.text, "scene.nff:2:9: warning: Kd of a fill is 1.5, outside of 0 to 1; 1 is taken");
+    EXPECT_EQ(fill_after("f 1 1 1 1 1 5 1\n1e-300").ior, 0.125);
+    EXPECT_EQ(scene.clamped, 1u);
+    EXPECT_STREQ(scene.first_clamped.text,
+                 "scene.nff:3:1: warning: the ior of a fill is 1e-300, outside of 0.125 to 8; 0.125 is taken");
+    EXPECT_EQ(fill_after("f 0 0 0 0 1 5 0 -3").ior, 1);
+    EXPECT_EQ(scene.clamped, 0u);
+    EXPECT_STREQ(scene.first_clamped.text, "");
+    expect_error(view + "f 1 1 1 2 2 2 2 @x", "expected the ior of a fill, found 'x'");
+    expect_error(view + "f 1 1 1 1 1 1 @1e999 1", "too large for a number");
+}
+
+TEST(Parser, ByteOrderMarks) {
+    ASSERT_PARSES("\xef\xbb\xbf" + view + "s 0 0 0 1");
+    EXPECT_EQ(scene.object_count, 1u);
+    EXPECT_FALSE(parsed("\xef\xbb\xbf x"));
+    EXPECT_EQ(std::string(error.text).find("scene.nff:1:2: unknown entity 'x'"), 0u) << error.text;
+    for (const int bytes : {2, 4})
+        for (const bool little : {false, true})
+            for (const bool mark : {false, true}) {
+                std::string text;
+                const auto put = [&](int c) {
+                    for (int i = 0; i < bytes; i++)
+                        text += static_cast<char>(c >> 8 * (little ? i : bytes - 1 - i));
+                };
+                if (mark)
+                    put(0xfeff);
+                for (const char c : view)
+                    put(c);
+                EXPECT_FALSE(parsed(text));
+                EXPECT_EQ("scene.nff:1:1: the text is in UTF-" + std::to_string(8 * bytes) + "; expected ASCII or UTF-8",
+                          error.text);
+            }
+    expect_error(view + "@\xef\xbb\xbf", "found the byte 0xef");
+}
+
+// Of the shortest texts of so many objects and corners, in a room of just the size that is asked for.
+TEST(Parser, RoomIsEnough) {
+    const std::string corners = " 0 0 0 1 0 0 0 1 0 1 1 1 2 2 2 3 3 3 4 4 4";
+    std::string spheres, polygon = "p 1400";
+    for (int i = 0; i < 1000; i++)
+        spheres += "s 0 0 0 1 ";
+    for (int i = 0; i < 200; i++)
+        polygon += corners;
+    for (const std::string& text : {view + spheres, view + polygon, view + polygon + " 0", view + "pp 9 0 0 0 0 0 1 0"}) {
+        Description tight;
+        const size_t bytes = tight.lay_out(text.size());
+        std::vector<uint8_t> room(bytes + Layout::alignment);
+        uint8_t* const at = room.data() + (-reinterpret_cast<uintptr_t>(room.data()) & (Layout::alignment - 1));
+        tight.room = {at, bytes};
+        parse("x", text.data(), text.size(), tight, error);
+        EXPECT_EQ(std::string(error.text).find("memory"), std::string::npos) << error.text;
+        tight.room.size = bytes - 1;
+        EXPECT_FALSE(parse("x", text.data(), text.size(), tight, error));
+        EXPECT_STREQ(error.text, "x:1:1: not enough memory");
+    }
 }
 
 TEST(ParserLimit, Objects) {

@@ -57,9 +57,14 @@ int load(const Options& options, const Renderer& renderer, const char* out, Buil
         return 1;
     }
     if (!options.quiet) {
-        warn(options.scene, loaded.dropped, loaded.dropped_line, "an object without extent, left out");
-        warn(options.scene, loaded.nonplanar);
-        warn(options.scene, built.lost);
+        if (loaded.clamped != 0)
+            fputs(loaded.first_clamped.text, stderr);
+        if (loaded.clamped > 1)
+            fprintf(stderr, " (and so for %u more)", loaded.clamped - 1);
+        if (loaded.clamped != 0)
+            fputc('\n', stderr);
+        warn(options.scene, loaded.dropped, "without extent, left out");
+        warn(options.scene, built.vanished, "too small for the number system, left out");
     }
     return go_on;
 }

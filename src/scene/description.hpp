@@ -94,6 +94,11 @@ struct Warning {
     }
 };
 
+// One line for people: file:line:column: text.
+struct Error {
+    char text[512] = {};
+};
+
 struct Description {
     View view;
     Vec3d background;
@@ -102,8 +107,8 @@ struct Description {
     double far = 0; // 0: the default, 16 scene radii
     uint32_t object_count = 0, vertex_count = 0, fill_count = 0, light_count = 0;
     uint32_t dropped = 0; // objects and triangles of patches without extent, left out
-    uint32_t dropped_line = 0; // of the first
-    Warning nonplanar{}; // polygons of which a corner is off the plane by more than 1 % of their size
+    uint32_t clamped = 0; // numbers of `f` outside of their ranges
+    Error first_clamped;  // says so of the first of them
     char comment[256] = {}; // the first comment that says something, without its '#'; else empty
     Room room; // the caller's, for what follows
     Object* objects = nullptr;
@@ -131,14 +136,10 @@ struct Description {
     }
 };
 
-// One line for people: file:line:column: text.
-struct Error {
-    char text[512] = {};
-};
-
-// Reads the scene text of `size` bytes into `out` (reset first), whose room has out.lay_out(size) bytes. `name` stands in messages. Returns false, fills `error` and leaves
-// `out` unspecified where the text is no scene of scenes/README.md. Every rule of the language that does not depend
-// on a number system is checked here. Threads may parse into different Descriptions.
+// Reads the scene text of `size` bytes into `out` (reset first), whose room has out.lay_out(size) bytes. `name` stands in
+// messages. Returns false, fills `error` and leaves `out` unspecified where the text is no scene of scenes/README.md. Every
+// rule of the language that does not depend on a number system is checked here. Threads may parse into different
+// Descriptions.
 bool parse(const char* name, const char* text, size_t size, Description& out, Error& error);
 
 } // namespace qray::scene

@@ -73,6 +73,20 @@ bool is_large(std::string_view token) {
 
 } // namespace
 
+const char* wide_encoding(std::string_view text) {
+    using namespace std::string_view_literals;
+    if (text.starts_with("\xff\xfe\0\0"sv) || text.starts_with("\0\0\xfe\xff"sv)) return "UTF-32";
+    if (text.starts_with("\xff\xfe"sv) || text.starts_with("\xfe\xff"sv)) return "UTF-16";
+    if (text.size() < 4) return nullptr;
+    const unsigned zeros = (text[0] == 0) + 2u * (text[1] == 0) + 4u * (text[2] == 0) + 8u * (text[3] == 0);
+    return zeros == 0b1110 || zeros == 0b0111 ? "UTF-32" : zeros == 0b1010 || zeros == 0b0101 ? "UTF-16" : nullptr;
+}
+
+Lexer::Lexer(const char* text, size_t size) : cursor_(text), end_(text + size) {
+    if (std::string_view(text, size).starts_with("\xef\xbb\xbf")) cursor_ += 3;
+    line_start_ = cursor_;
+}
+
 void Lexer::skip_comment() {
     const char* start = cursor_;
     while (cursor_ != end_ && kind_of(*cursor_) != Byte::line_end) ++cursor_;

@@ -1,6 +1,6 @@
 // The tokens of a scene text: runs of printable ASCII between white space (blank, tab, vertical tab, form
 // feed, line end). '#' starts a comment, also in the middle of a token; LF, CR and CR LF each end a line and
-// with it the comment. A comment may hold any byte.
+// with it the comment. A comment may hold any byte. A UTF-8 byte order mark before all is skipped.
 #pragma once
 
 #include <stddef.h>
@@ -31,7 +31,7 @@ struct Token {
 class Lexer {
 public:
     // The text must outlive the lexer and its tokens, and be shorter than 4 GiB.
-    Lexer(const char* text, size_t size) : cursor_(text), line_start_(text), end_(text + size) {}
+    Lexer(const char* text, size_t size);
 
     // The next token; valid until the next call. Behind the last one comes `end`, again and again.
     const Token& next();
@@ -54,6 +54,9 @@ private:
     Token token_;
     std::string_view comment_;
 };
+
+// "UTF-16" or "UTF-32" where the text's first bytes are a byte order mark of that, or of a character in it; else null.
+const char* wide_encoding(std::string_view text);
 
 enum class NumberError : uint8_t { none, malformed, not_finite, too_large, not_whole, negative };
 

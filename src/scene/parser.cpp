@@ -3,6 +3,7 @@
 #include "reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdio>
 #include <string_view>
@@ -17,10 +18,29 @@ struct InnerWord {
     const char* entity;
 };
 constexpr InnerWord inner_words[] = {
-    {"from", "v"},            {"at", "v"},              {"up", "v"},           {"angle", "v"},
-    {"hither", "v"},          {"resolution", "v"},      {"colour", "material"}, {"ambient", "material"},
-    {"diffuse", "material"},  {"highlight", "material"}, {"shine", "material"}, {"mirror", "material"},
-    {"transmit", "material"}, {"ior", "material"},      {"on", "shadows"},     {"off", "shadows"},
+    {"from", "v"},   {"at", "v"},         {"up", "v"},      {"angle", "v"},
+    {"hither", "v"}, {"resolution", "v"}, {"on", "shadows"}, {"off", "shadows"},
+};
+
+// What `material` sets, by its word in quotes; colour apart.
+struct MaterialWord {
+    const char* quoted;
+    double Fill::*value;
+    const Range* range;
+    constexpr std::string_view word() const {
+        const std::string_view text(quoted);
+        return text.substr(1, text.size() - 2);
+    }
+};
+constexpr MaterialWord material_words[] = {
+    {"'colour'", nullptr, &share_range},
+    {"'ambient'", &Fill::ambient, &share_range},
+    {"'diffuse'", &Fill::diffuse, &share_range},
+    {"'highlight'", &Fill::highlight, &share_range},
+    {"'shine'", &Fill::shine, &shine_range},
+    {"'mirror'", &Fill::mirror, &share_range},
+    {"'transmit'", &Fill::transmit, &share_range},
+    {"'ior'", &Fill::ior, &ior_range},
 };
 
 struct TextureWord {
@@ -33,6 +53,45 @@ constexpr TextureWord texture_words[] = {
     {"gradient", TextureKind::gradient, true}, {"rings", TextureKind::rings, false},
     {"noise", TextureKind::noise, false},      {"marble", TextureKind::marble, true},
     {"wood", TextureKind::wood, true},         {"brick", TextureKind::brick, false},
+};
+
+// Whether `found` is `word` but for case and a letter or two: one too many, missing, another, or two exchanged.
+bool is_near(std::string_view found, std::string_view word) {
+    constexpr size_t most = 16;
+    if (found.size() > most || word.size() > most) return false;
+    // From the first i letters of one to the first j of the other: of i - 2, i - 1 and i.
+    std::array<size_t, most + 1> steps[3] = {};
+    for (size_t j = 0; j <= word.size(); ++j) steps[2][j] = j;
+    const auto same = [&](size_t i, size_t j) { return (found[i] | 0x20) == (word[j] | 0x20); };
+    for (size_t i = 0; i < found.size(); ++i) {
+        steps[0] = steps[1];
+        steps[1] = steps[2];
+        steps[2][0] = i + 1;
+        for (size_t j = 0; j < word.size(); ++j) {
+            size_t least = std::min({steps[1][j + 1] + 1, steps[2][j] + 1, steps[1][j] + !same(i, j)});
+            if (i > 0 && j > 0 && same(i, j - 1) && same(i - 1, j)) least = std::min(least, steps[0][j - 1] + 1);
+            steps[2][j + 1] = least;
+        }
+    }
+    return steps[2][word.size()] <= (word.size() < 3 ? 0 : word.size() < 6 ? 1 : 2);
+}
+
+// Words for a message, and which of them is meant.
+class Words {
+public:
+    explicit Words(std::string_view found) : found_(found) {}
+    void add(std::string_view word) {
+        used_ += snprintf(text + used_, sizeof text - static_cast<size_t>(used_), "%s%.*s", used_ == 0 ? "" : " ",
+                          static_cast<int>(word.size()), word.data());
+        if (meant[0] == 0 && is_near(found_, word)) {
+            snprintf(meant, sizeof meant, "did you mean '%.*s'? ", static_cast<int>(word.size()), word.data());
+        }
+    }
+    char text[160] = {}, meant[40] = {};
+
+private:
+    std::string_view found_;
+    int used_ = 0;
 };
 
 // Whether n >= 3 corners enclose something. What rounding each coordinate to a double could make of an area
@@ -73,13 +132,17 @@ uint64_t hash_of(const Fill& fill) {
 class Parser : private Reader {
 public:
     Parser(const char* name, const char* text, size_t size, Description& out, Error& error)
-        : Reader(name, text, size, error), size_(size), out_(out) {}
+        : Reader(name, text, size, error), text_(text), size_(size), out_(out) {}
 
     bool parse();
 
 private:
-    bool entity();
     bool view();
+    bool background() { return colour("the background", light_range, out_.background); }
+    bool ambient_light() { return colour("the ambient light", light_range, out_.ambient); }
+    bool far() { return number("'far'", size_range, out_.far); }
+    bool lamp() { return light(false); }
+    bool sun() { return light(true); }
     bool light(bool sun);
     bool fill();
     bool material();
@@ -87,6 +150,8 @@ private:
     bool shadows();
     bool sphere();
     bool cone();
+    bool polygon() { return corners(Shape::polygon); }
+    bool patch() { return corners(Shape::patch); }
     bool corners(Shape shape);
     bool plane();
     bool disc();
@@ -103,13 +168,23 @@ private:
     void warn_of_nonplanar(const Vec3d* corners, uint32_t n);
     bool use_fill(uint32_t& index);
 
+    bool clamped(const char* what, const Range& range, double& value);
     bool unknown_entity();
+    bool unknown_in_material();
     void keep_comment();
+
+    struct Entity {
+        std::string_view word;
+        bool (Parser::*read)();
+    };
+    static const Entity entities[];
+    static const Entity* entity_of(std::string_view word);
 
     static constexpr uint32_t none = UINT32_MAX;
     static constexpr uint32_t chains = 512;
     static_assert(Limits::materials < UINT16_MAX);
 
+    const char* text_;
     size_t size_;
     Description& out_;
     Token entity_;                             // the entity being read
@@ -177,13 +252,27 @@ bool Parser::light(bool sun) {
 
 // What a surface looks like.
 
+// NFF bounds these numbers of `f` by nothing.
+bool Parser::clamped(const char* what, const Range& range, double& value) {
+    if (!any_number(what, "", value)) return false;
+    if (&range == &ior_range && value <= 0) value = 1;
+    const double nearest = std::clamp(value, range.low, range.high);
+    if (value != nearest && out_.clamped++ == 0) {
+        fail(token_.at, "warning: %s is %s, outside of %g to %g; %g is taken", what, Shown(token_.text).text, range.low,
+             range.high, nearest);
+        std::swap(error_, out_.first_clamped);
+    }
+    value = nearest;
+    return true;
+}
+
 bool Parser::fill() {
     Fill fill;
     double kd = 0, ks = 0;
-    if (!colour("the colour of a fill", share_range, fill.colour) ||
-        !number("Kd of a fill", share_range, kd) || !number("Ks of a fill", share_range, ks) ||
-        !number("the shine of a fill", shine_range, fill.shine) ||
-        !number("T of a fill", share_range, fill.transmit) || !ior("the ior of a fill", fill.ior)) {
+    if (!colour("the colour of a fill", share_range, fill.colour) || !clamped("Kd of a fill", share_range, kd) ||
+        !clamped("Ks of a fill", share_range, ks) || !number("the shine of a fill", shine_range, fill.shine) ||
+        !clamped("T of a fill", share_range, fill.transmit) ||
+        !clamped("the ior of a fill", ior_range, fill.ior)) {
         return false;
     }
     fill.ambient = fill.diffuse = kd;
@@ -198,29 +287,21 @@ bool Parser::material() {
     fill_index_ = none;
     for (;;) {
         token_ = lexer_.next();
-        const std::string_view word = token_.text;
-        bool ok = true;
-        if (word == "colour") {
-            ok = colour("'colour'", share_range, fill_.colour);
-        } else if (word == "ambient") {
-            ok = number("'ambient'", share_range, fill_.ambient);
-        } else if (word == "diffuse") {
-            ok = number("'diffuse'", share_range, fill_.diffuse);
-        } else if (word == "highlight") {
-            ok = number("'highlight'", share_range, fill_.highlight);
-        } else if (word == "shine") {
-            ok = number("'shine'", shine_range, fill_.shine);
-        } else if (word == "mirror") {
-            ok = number("'mirror'", share_range, fill_.mirror);
-        } else if (word == "transmit") {
-            ok = number("'transmit'", share_range, fill_.transmit);
-        } else if (word == "ior") {
-            ok = ior("'ior'", fill_.ior);
-        } else {
+        const MaterialWord* const end = std::end(material_words);
+        const MaterialWord* const known = std::find_if(
+            material_words, end, [this](const MaterialWord& m) { return token_.text == m.word(); });
+        if (known == end) {
+            if (token_.kind == TokenKind::word && entity_of(token_.text) == nullptr) return unknown_in_material();
             lexer_.unread();
             return true;
         }
-        if (!ok) return false;
+        if (known->value == nullptr) {
+            if (!colour(known->quoted, *known->range, fill_.colour)) return false;
+        } else if (known->range == &ior_range) {
+            if (!ior(known->quoted, fill_.ior)) return false;
+        } else if (!number(known->quoted, *known->range, fill_.*known->value)) {
+            return false;
+        }
     }
 }
 
@@ -240,7 +321,15 @@ bool Parser::texture() {
         fill_index_ = none;
         return true;
     }
-    return expected("", "a texture (checker stripes gradient rings noise marble wood brick)");
+    Words words(token_.text);
+    for (const TextureWord& known : texture_words) words.add(known.word);
+    if (token_.kind == TokenKind::word && words.meant[0] != 0) {
+        return fail(token_.at, "unknown texture '%s'; %sexpected one of %s", Shown(token_.text).text, words.meant,
+                    words.text);
+    }
+    char what[200];
+    snprintf(what, sizeof what, "a texture (%s)", words.text);
+    return expected("", what);
 }
 
 bool Parser::use_fill(uint32_t& index) {
@@ -380,11 +469,40 @@ bool Parser::shadows() {
     return true;
 }
 
+const Parser::Entity Parser::entities[] = {
+    {"v", &Parser::view},
+    {"b", &Parser::background},
+    {"l", &Parser::lamp},
+    {"f", &Parser::fill},
+    {"s", &Parser::sphere},
+    {"c", &Parser::cone},
+    {"p", &Parser::polygon},
+    {"pp", &Parser::patch},
+    {"ambientlight", &Parser::ambient_light},
+    {"sun", &Parser::sun},
+    {"material", &Parser::material},
+    {"plane", &Parser::plane},
+    {"disc", &Parser::disc},
+    {"texture", &Parser::texture},
+    {"shadows", &Parser::shadows},
+    {"far", &Parser::far},
+};
+
+const Parser::Entity* Parser::entity_of(std::string_view word) {
+    for (const Entity& e : entities) {
+        if (e.word[0] == word[0] && e.word == word) return &e;
+    }
+    return nullptr;
+}
+
 bool Parser::unknown_entity() {
     const Shown shown(entity_.text);
     const char* home = nullptr;
     for (const InnerWord& inner : inner_words) {
         if (entity_.text == inner.word) home = inner.entity;
+    }
+    for (const MaterialWord& inner : material_words) {
+        if (entity_.text == inner.word()) home = "material";
     }
     for (const TextureWord& texture : texture_words) {
         if (entity_.text == texture.word) home = "texture";
@@ -392,44 +510,22 @@ bool Parser::unknown_entity() {
     if (home != nullptr) {
         return fail(entity_.at, "expected an entity, found '%s', which stands in '%s'", shown.text, home);
     }
-    return fail(entity_.at,
-                "unknown entity '%s'; expected one of v b l f s c p pp ambientlight sun material plane disc "
-                "texture shadows far",
-                shown.text);
+    Words words(entity_.text);
+    for (const Entity& e : entities) words.add(e.word);
+    return fail(entity_.at, "unknown entity '%s'; %sexpected one of %s", shown.text, words.meant, words.text);
 }
 
-bool Parser::entity() {
-    const std::string_view word = entity_.text;
-    if (word.size() == 1) {
-        switch (word[0]) {
-        case 'v':
-            return view();
-        case 'b':
-            return colour("the background", light_range, out_.background);
-        case 'l':
-            return light(false);
-        case 'f':
-            return fill();
-        case 's':
-            return sphere();
-        case 'c':
-            return cone();
-        case 'p':
-            return corners(Shape::polygon);
-        default:
-            return unknown_entity();
-        }
+// The latest token is neither a word of `material` nor an entity, but nearer to the first, or to none.
+bool Parser::unknown_in_material() {
+    Words words(token_.text), others(token_.text);
+    for (const MaterialWord& known : material_words) words.add(known.word());
+    for (const Entity& e : entities) others.add(e.word);
+    if (words.meant[0] == 0 && others.meant[0] != 0) {
+        entity_ = token_;
+        return unknown_entity();
     }
-    if (word == "pp") return corners(Shape::patch);
-    if (word == "material") return material();
-    if (word == "texture") return texture();
-    if (word == "plane") return plane();
-    if (word == "disc") return disc();
-    if (word == "sun") return light(true);
-    if (word == "ambientlight") return colour("the ambient light", light_range, out_.ambient);
-    if (word == "shadows") return shadows();
-    if (word == "far") return number("'far'", size_range, out_.far);
-    return unknown_entity();
+    return fail(token_.at, "unknown word '%s' in 'material'; %sexpected one of %s, or an entity",
+                Shown(token_.text).text, words.meant, words.text);
 }
 
 void Parser::keep_comment() {
@@ -463,6 +559,9 @@ bool Parser::parse() {
     if (size_ > Limits::text) {
         return fail({}, "a text of %zu bytes; expected at most %u (limit 'text')", size_, Limits::text);
     }
+    if (const char* encoding = wide_encoding({text_, size_})) {
+        return fail({}, "the text is in %s; expected ASCII or UTF-8", encoding);
+    }
     if (out_.lay_out(size_) > out_.room.size) return fail({}, "not enough memory");
     for (;;) {
         const Token before = entity_;
@@ -478,7 +577,11 @@ bool Parser::parse() {
                         "expected an entity, found '%s'; the '%s' in line %u is complete without it",
                         Shown(token_.text).text, Shown(before.text).text, before.at.line);
         case TokenKind::word:
-            if (!entity()) return false;
+            if (const Entity* known = entity_of(entity_.text)) {
+                if (!(this->*known->read)()) return false;
+            } else {
+                return unknown_entity();
+            }
             break;
         }
     }
@@ -491,8 +594,8 @@ void reset(Description& out) {
     out.shadows = true;
     out.far = 0;
     out.object_count = out.vertex_count = out.fill_count = out.light_count = 0;
-    out.dropped = out.dropped_line = 0;
-    out.nonplanar.clear();
+    out.dropped = out.clamped = 0;
+    out.first_clamped.text[0] = 0;
     out.comment[0] = 0;
 }
 

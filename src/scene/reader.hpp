@@ -45,7 +45,7 @@ struct ShownName {
 class Reader {
 protected:
     Reader(const char* name, const char* text, size_t size, Error& error)
-        : lexer_(text, size), name_(name), error_(error) {}
+        : lexer_(text, size), error_(error), name_(name) {}
 
     bool number(const char* what, const Range& range, double& value) {
         return number(what, "", range, value);
@@ -66,6 +66,7 @@ protected:
     bool not_a_number(const char* part, const char* what, NumberError why); // always false
 
     Lexer lexer_;
+    Error& error_;
     Token token_;        // the latest
     Position vector_at_; // where the latest point or direction began
 
@@ -73,7 +74,6 @@ private:
     bool number(const char* what, const char* part, const Range& range, double& value);
 
     const char* name_;
-    Error& error_;
 };
 
 } // namespace qray::scene

@@ -342,10 +342,10 @@ void read_scene(Reader& in, Scene& s) {
         } else if (w == "f") {
             fill = Material();
             fill.colour = in.vec();
-            fill.ambient = fill.diffuse = in.real();
-            fill.highlight = fill.mirror = in.real();
-            fill.shine = in.real(), fill.transmit = in.real(), fill.ior = in.real();
-            if (fill.ior <= 0) fill.ior = 1;
+            fill.ambient = fill.diffuse = clamp01(in.real());
+            fill.highlight = fill.mirror = clamp01(in.real());
+            fill.shine = in.real(), fill.transmit = clamp01(in.real()), fill.ior = in.real();
+            fill.ior = fill.ior <= 0 ? 1 : fill.ior < 0.125 ? Real(0.125) : fill.ior > 8 ? Real(8) : fill.ior;
             fill_new = true;
         } else if (w == "material") {
             fill = Material();
