@@ -6,12 +6,19 @@ import os
 import platform
 import pty
 import re
+import resource
 import signal
 import stat
 import subprocess
 import tempfile
 import time
 import unittest
+
+# As a shell leaves it: in a job in the background of a script, some signals are ignored, which programs inherit.
+for number in signal.valid_signals() - {signal.SIGKILL, signal.SIGSTOP, signal.SIGINT, signal.SIGPIPE}:
+    signal.signal(number, signal.SIG_DFL)
+signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.pthread_sigmask(signal.SIG_SETMASK, [])
 
 QRAY = os.path.abspath("build/qray")
 SANITIZED = os.path.abspath("build/sanitized/qray")
@@ -205,6 +212,21 @@ class Options(Cli):
                              "2 objects in all\n")
 
 
+    # NFF bounds neither Kd, Ks and T nor the index of refraction.
+    def test_fills_out_of_range(self):
+        for fill, same, warning in (
+                ("1 1 1 1.5 0 5 0 1", "1 1 1 1 0 5 0 1", "2:9: warning: Kd of a fill is 1.5, outside of 0 to 1; 1 is taken"),
+                ("1 1 1 0.5 2 5 -1 99", "1 1 1 0.5 1 5 0 8",
+                 r"2:13: warning: Ks of a fill is 2, outside of 0 to 1; 1 is taken \(and so for 2 more\)")):
+            text = view(9, 9) + "f {}\ns 0 0 0 0.7\n"
+            expected = self.pixels(text.format(same))
+            self.write("f.nff", text.format(fill))
+            status, out, err = self.run_qray("f.nff", "-o", "-")
+            self.assertEqual((status, out[11:]), (0, expected))
+            self.assertRegex(err, r"\Af\.nff:" + warning + r"\n\Z")
+            self.assertEqual(self.run_qray("f.nff", "-q")[2], "")
+
+
 class Files(Cli):
     def test_default_name(self):
         os.makedirs("a.b/c")
@@ -275,6 +297,77 @@ class Files(Cli):
         os.close(write)
         self.assertEqual((done.returncode, done.stderr), (1, b"-: cannot write: Broken pipe\n"))
 
+    def test_other_formats(self):
+        for name, how in (("a.png", "pnmtopng picture.ppm > picture.png"), ("b.JPG", "pnmtojpeg picture.ppm > picture.jpg"),
+                          ("x/c.webp", "convert picture.ppm picture.webp")):
+            self.fails(2, f"qray: '{name}': qray writes PPM; give '-o picture.ppm', then: {how}", "ok.nff", "-o", name)
+        self.assertEqual(self.run_qray("ok.nff", "-o", "a.png.ppm"), (0, b"", ""))
+
+    def test_byte_order_marks(self):
+        text = view(4, 3) + "b 0 0 1\n"
+        expected = self.pixels(text)
+        self.assertEqual(self.pixels(b"\xef\xbb\xbf" + text.encode()), expected)
+        for encoding, name in (("utf-16", "UTF-16"), ("utf-16-le", "UTF-16"), ("utf-16-be", "UTF-16"), ("utf-32", "UTF-32")):
+            self.write("wide.nff", text.encode(encoding))
+            self.fails(1, f"wide.nff:1:1: the text is in {name}", "wide.nff")
+            self.fails(1, f"-:1:1: the text is in {name}", "-", input=text.encode(encoding))
+
+    # Standard output or error that is closed is no other file.
+    def test_closed_standard_files(self):
+        for closed, status in (("0", 0), ("2", 0), ("1", 0)):
+            done = subprocess.run(["sh", "-c", f'exec "$0" ok.nff --stats -o x {closed}>&-', QRAY], stderr=subprocess.PIPE)
+            self.assertEqual(done.returncode, status)
+            self.assertEqual(self.read("x"), b"P6\n4 3\n255\n" + bytes(36))
+        for command, message in (("ok.nff -o - >&-", b"-: cannot write: Bad file"), ("-h >&-", b"qray: cannot write: Bad file"),
+                                 ("-h > /dev/full", b"qray: cannot write: No space"), ("- <&-", b"-: cannot read: Bad file"),
+                                 ("- < x.nff 1<> x.nff", b"qray: '-' is the scene itself")):
+            self.write("x.nff", view())
+            done = subprocess.run(["sh", "-c", f'exec "$0" {command}', QRAY], stderr=subprocess.PIPE)
+            self.assertEqual((done.returncode, done.stderr.count(b"\n")), (2 if b"itself" in message else 1, 1), command)
+            self.assertTrue(done.stderr.startswith(message), done.stderr)
+
+    def test_follows_a_link_to_nothing(self):
+        os.mkdir("to")
+        os.symlink("to/second", "first")
+        os.symlink("picture", "to/second")
+        os.symlink("b", "a")
+        os.symlink("a", "b")
+        os.symlink("none/x", "c")
+        self.assertEqual(self.run_qray("ok.nff", "-o", "first"), (0, b"", ""))
+        self.assertEqual(self.read("to/picture"), b"P6\n4 3\n255\n" + bytes(36))
+        self.assertEqual(sorted(os.listdir("to")), ["picture", "second"])
+        self.assertTrue(os.path.islink("first") and os.path.islink("to/second"))
+        self.fails(1, "a: cannot open: Too many levels", "ok.nff", "-o", "a")
+        self.fails(1, "c: cannot open: No such file", "ok.nff", "-o", "c")
+
+    def test_file_that_grows_too_large(self):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1024, 1024))
+        self.fails(1, "x: cannot write: File too large", "ok.nff", "-s", "99x99", "-o", "x", preexec_fn=limit)
+        self.fails(1, "x: cannot write: File too large", "compile", SCENES[0], "-o", "x", preexec_fn=limit)
+        with open("out", "wb") as file:
+            done = subprocess.run([QRAY, "ok.nff", "-s", "99x99", "-o", "-"], stdout=file, stderr=subprocess.PIPE,
+                                  preexec_fn=limit)
+        self.assertEqual((done.returncode, done.stderr), (1, b"-: cannot write: File too large\n"))
+
+    # From where it can start at all, to where there is enough: one line or a picture.
+    def test_little_memory(self):
+        self.write("many.nff", view(9, 9) + "".join(f"s {i % 99} {i % 98} 9 1\n" for i in range(20000)) + "p 9 " + "0 0 0 1 0 0 1 1 0 " * 3)
+        os.remove("ok.nff")
+        programs = [["many.nff", "-q", "-o", "-", "-j", "64", "-s", "400x400"], ["many.nff", "-q", "-o", "-", "-n", "double"],
+                    ["compile", "many.nff", "-q", "-o", "-"], ["--help"]]
+        for arguments in programs:
+            found = set()
+            for kilobytes in (3072, 3200, 3500, 4000, 5000, 6000, 7000, 8000, 10000, 12000, 16000, 32000, 64000):
+                limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (kilobytes << 10, kilobytes << 10))
+                status, out, err = self.run_qray(*arguments, preexec_fn=limit)
+                found.add(status)
+                with self.subTest(arguments=arguments, kilobytes=kilobytes):
+                    self.assertEqual((status, err.count("\n"), out == b""), (1, 1, True) if err else (0, 0, False))
+                    self.assertTrue(not err or "memory" in err, err)
+            self.assertEqual(status, 0)
+        self.assertEqual(self.run_qray("many.nff", "-j", 256, "-s", "400x400", "-q", preexec_fn=lambda: resource.setrlimit(
+            resource.RLIMIT_AS, (150 << 20, 150 << 20)))[0], 0)
+
     def test_replaces_files(self):
         picture = b"P6\n4 3\n255\n" + bytes(36)
         self.write("old", b"x" * 1000)
@@ -327,7 +420,7 @@ class Scenes(Cli):
                 (v + "s 0 0 0 1 @l 0 0 0", "a light after the first object"),
                 (v + "@v", "a second view"),
                 (v + "f 1 1 @1.5 1 0 0 0 1", "blue of the colour of a fill is 1.5; expected a number from 0 to 1"),
-                (v + "f 1 1 1 @-1 0 0 0 1", "Kd of a fill is -1; expected a number from 0 to 1"),
+                (v + "material @color 1 0 0", "unknown word 'color' in 'material'; did you mean 'colour'? expected one of colour"),
                 (v + "l 0 0 0 1 @65 1", "green of the colour of a light is 65; expected a number from 0 to 64"),
                 (v + "material shine @1e7", "'shine' is 1e7; expected a number from 0 to 1e6"),
                 (v + "material ior @0.1", "'ior' is 0.1; expected a number from 0.125 to 8"),
@@ -373,11 +466,11 @@ class Threads(Cli):
             self.assertEqual(len(pictures), 1, size)
 
     def wait(self, process, condition):
-        for _ in range(600):
+        for _ in range(3000):
             if condition():
                 return
             self.assertIsNone(process.poll())
-            time.sleep(0.05)
+            time.sleep(0.01)
         self.fail("not in 30 s")
 
     def test_threads_are_as_many_as_asked_for(self):
@@ -391,6 +484,17 @@ class Threads(Cli):
             process.send_signal(signal.SIGTERM)
             self.assertEqual(process.wait(), -signal.SIGTERM)
             self.assertEqual(os.listdir(), ["ok.nff"])
+
+    def test_nothing_is_left_after_a_signal(self):
+        for number in sorted(signal.valid_signals() - {signal.SIGKILL, signal.SIGSTOP, signal.SIGCHLD, signal.SIGCONT,
+                                                       signal.SIGTSTP, signal.SIGTTIN, signal.SIGTTOU, signal.SIGURG,
+                                                       signal.SIGWINCH}):
+            process = subprocess.Popen([QRAY, "ok.nff", "-s", "400x9999", "-r", "400", "-q", "-o", "x", "-j", "2"])
+            self.addCleanup(process.kill)
+            self.wait(process, lambda: [name for name in os.listdir() if name.endswith(".part")])
+            process.send_signal(number)
+            self.assertEqual(process.wait(30), -number)
+            self.assertEqual(os.listdir(), ["ok.nff"], number)
 
     def test_a_signal_that_is_ignored_stays_so(self):
         process = subprocess.Popen(["nohup", QRAY, "ok.nff", "-s", "400x9999", "-r", "400", "-q", "-o", "x"],

@@ -81,7 +81,8 @@ bool read_scene(const char* path, scene::Description& description, scene::Error&
 bool is_scene_file(const char* path)
 {
     struct stat other;
-    return stat(path, &other) == 0 && S_ISREG(other.st_mode) && other.st_dev == scene_file.st_dev
+    const bool found = strcmp(path, "-") == 0 ? fstat(STDOUT_FILENO, &other) == 0 : stat(path, &other) == 0;
+    return found && S_ISREG(other.st_mode) && other.st_dev == scene_file.st_dev
         && other.st_ino == scene_file.st_ino;
 }
 

@@ -8,7 +8,7 @@ namespace qray::cli {
 // Reads and parses the scene at `path` ("-": standard input). False, and one line in `error`, where there is none.
 bool read_scene(const char* path, scene::Description& description, scene::Error& error);
 
-// Is `path` the very file that read_scene() read?
+// Is `path` ("-": standard output) the very file that read_scene() read?
 bool is_scene_file(const char* path);
 
 // "folder/name.nff" and ".ppm" give "name.ppm". False where that does not fit.

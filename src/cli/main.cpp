@@ -1,4 +1,5 @@
 // qray: draws a scene, or hands over to one of its other commands.
+#include "../scene/reader.hpp"
 #include "compile.hpp"
 #include "draw.hpp"
 #include "load.hpp"
@@ -6,7 +7,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -22,6 +22,29 @@ bool draw(const Renderer& renderer, const Built& built, uint32_t threads, bool q
     return draw_picture(renderer, built, threads, output, progress, counts);
 }
 
+// What makes other formats of a PPM, by the ends of their names.
+constexpr struct {
+    const char *end, *command;
+} other_formats[] = {
+    {".png", "pnmtopng picture.ppm >"},   {".jpg", "pnmtojpeg picture.ppm >"},  {".jpeg", "pnmtojpeg picture.ppm >"},
+    {".bmp", "ppmtobmp picture.ppm >"},   {".gif", "ppmtogif picture.ppm >"},   {".tif", "pnmtotiff picture.ppm >"},
+    {".tiff", "pnmtotiff picture.ppm >"}, {".tga", "ppmtotga picture.ppm >"},   {".pgm", "ppmtopgm picture.ppm >"},
+    {".webp", "convert picture.ppm"},     {".avif", "convert picture.ppm"},     {".heic", "convert picture.ppm"},
+    {".jxl", "convert picture.ppm"},      {".exr", "convert picture.ppm"},      {".ico", "convert picture.ppm"},
+    {".pdf", "convert picture.ppm"},      {".svg", "convert picture.ppm"},
+};
+
+// go_on, or 2 and a line where the name promises another format.
+int check_format(const char* out)
+{
+    const char* const dot = strrchr(out, '.');
+    for (const auto& format : other_formats)
+        if (dot != nullptr && strcasecmp(dot, format.end) == 0)
+            return bad_options("'%s': qray writes PPM; give '-o picture.ppm', then: %s picture%s",
+                               scene::ShownName(out).text, format.command, format.end);
+    return go_on;
+}
+
 int draw_main(int argc, char** argv)
 {
     Options options;
@@ -32,6 +55,8 @@ int draw_main(int argc, char** argv)
     const char* out = output_name(options, ".ppm");
     if (out == nullptr)
         return 2;
+    if (const int format = check_format(out); format != go_on)
+        return format;
     if (strcmp(out, "-") == 0 && isatty(STDOUT_FILENO))
         return bad_options("the picture would go to the terminal; give '-o FILE'");
 
@@ -81,8 +106,7 @@ int main(int argc, char** argv)
     keep_standard_files();
     if (!has_memory_to_start())
         return 1;
-    for (const int which : {SIGPIPE, SIGXFSZ}) // what writes tells
-        signal(which, SIG_IGN);
+    catch_signals();
     const int status = run(argc, argv);
     if (fflush(stdout) == 0 && ferror(stdout) == 0)
         return status;

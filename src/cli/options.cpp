@@ -228,7 +228,7 @@ int read_options(Command command, int argc, char** argv, Options& options)
     }
     if (options.has_samples && options.settings.levels != 0)
         return bad_options("'-a' and '-r' exclude each other: adaptive sampling chooses the samples of a pixel");
-    if (options.scene == nullptr)
+    if (options.scene == nullptr || *options.scene == 0)
         return bad_options("no scene; '%s -h' shows how to give one", command_name(command));
     return go_on;
 }

@@ -19,36 +19,14 @@ namespace {
 char target[PATH_MAX];
 char temporary[PATH_MAX]; // empty while there is none
 
-void interrupted(int which)
+void interrupted(int which, siginfo_t* info, void*)
 {
+    if ((which == SIGPIPE || which == SIGXFSZ) && info->si_pid == getpid())
+        return; // sent by a write that fails, and tells so itself
     if (temporary[0] != 0)
         unlink(temporary);
     signal(which, SIG_DFL);
     raise(which);
-}
-
-// For every signal that would end this process; but not for what is ignored, as nohup has it.
-void catch_signals()
-{
-    for (int which = 1; which <= SIGRTMAX; which++) {
-        struct sigaction old;
-        if (sigaction(which, nullptr, &old) != 0 || old.sa_handler != SIG_DFL)
-            continue;
-        switch (which) {
-        case SIGKILL: // nobody catches this,
-        case SIGCHLD: // and these end nothing
-        case SIGCONT:
-        case SIGSTOP:
-        case SIGTSTP:
-        case SIGTTIN:
-        case SIGTTOU:
-        case SIGURG:
-        case SIGWINCH:
-            break;
-        default:
-            signal(which, interrupted);
-        }
-    }
 }
 
 // Where the links from `target` lead, which may not exist. False, and errno, where that is too long or endless.
@@ -83,6 +61,29 @@ bool name_temporary()
 }
 
 } // namespace
+
+void catch_signals()
+{
+    struct sigaction ours = {}, old;
+    ours.sa_sigaction = interrupted;
+    ours.sa_flags = SA_SIGINFO | SA_RESTART;
+    for (int which = 1; which <= SIGRTMAX; which++)
+        switch (which) {
+        case SIGKILL: // nobody catches this,
+        case SIGCHLD: // and these end nothing
+        case SIGCONT:
+        case SIGSTOP:
+        case SIGTSTP:
+        case SIGTTIN:
+        case SIGTTOU:
+        case SIGURG:
+        case SIGWINCH:
+            break;
+        default:
+            if (sigaction(which, nullptr, &old) == 0 && old.sa_handler == SIG_DFL)
+                sigaction(which, &ours, nullptr);
+        }
+}
 
 bool Output::fail(const char* what, int error)
 {
@@ -125,7 +126,6 @@ bool Output::open(const char* name)
         temporary[0] = 0;
         return fail("open", ENAMETOOLONG);
     }
-    catch_signals();
     unlink(temporary); // left by an earlier process of that number
     file_ = ::open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file_ < 0) {
