@@ -36,30 +36,71 @@ def expect_whole(path, what):
     return found[0], found[1]
 
 
-def run_semihosting(command, image, picture, seconds):
+class Progress:
+    """How much of a picture is in its file, and the time left, in a line on a terminal that is wiped at the end."""
+
+    def __init__(self, what):
+        self.what, self.shown, self.width = what, sys.stderr.isatty(), 0
+        self.start = time.monotonic()
+
+    def update(self, picture):
+        past = time.monotonic() - self.start
+        if not self.shown or past < 0.5 or not os.path.exists(picture):
+            return
+        with open(picture, "rb") as file:
+            found = header_end(file.read(40))
+        done = os.path.getsize(picture) - found[2] if found else 0
+        if done <= 0:
+            return
+        total = 3 * found[0] * found[1]
+        left = round(past * (total - done) / done)
+        text = f"{self.what}: {100 * done // total} %, {left} s left"
+        if left >= 60:
+            text = f"{self.what}: {100 * done // total} %, {left // 60} min {left % 60} s left"
+        sys.stderr.write("\r" + text.ljust(self.width))
+        sys.stderr.flush()
+        self.width = len(text)
+
+    def wipe(self):
+        if self.width:
+            sys.stderr.write("\r" + " " * self.width + "\r")
+            sys.stderr.flush()
+
+
+def run_semihosting(command, image, picture, seconds, what):
     """Runs to the firmware's own exit; returns its `name: value` lines."""
     name = picture.replace(",", ",,")
     command = command + ["-nographic", "-monitor", "none", "-serial", "none", "-icount", "shift=0",
                          "-semihosting-config", f"enable=on,target=native,arg={name}", "-kernel", image]
+    progress, end = Progress(what), time.monotonic() + seconds
+    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                               text=True, errors="replace")
+    output = None
     try:
-        result = subprocess.run(command, capture_output=True, text=True, timeout=seconds,
-                                stdin=subprocess.DEVNULL, errors="replace")
-    except subprocess.TimeoutExpired:
-        fail(f"{image}: no end after {seconds} seconds")
-    output = result.stdout + result.stderr
+        while output is None:
+            try:
+                output, _ = process.communicate(timeout=0.2)
+            except subprocess.TimeoutExpired:
+                if time.monotonic() > end:
+                    fail(f"{image}: no end after {seconds:.0f} seconds")
+                progress.update(picture)
+    finally:
+        process.kill()
+        process.wait()
+        progress.wipe()
     values = dict(re.findall(r"^(\w+): (\d+)$", output, re.M))
-    if result.returncode != 0:
+    if process.returncode != 0:
         sys.stderr.write(output)
-        fail(f"{image}: exit status {result.returncode}")
+        fail(f"{image}: exit status {process.returncode}")
     return values
 
 
-def run_uart(command, image, picture, seconds):
+def run_uart(command, image, picture, seconds, what):
     """Captures the serial port until the picture is whole, as a board has no way to end the emulator."""
     command = command + ["-display", "none", "-monitor", "none", "-serial", f"file:{picture}",
                          "-kernel", image]
     process = subprocess.Popen(command, stdin=subprocess.DEVNULL)
-    end = time.monotonic() + seconds
+    progress, end = Progress(what), time.monotonic() + seconds
     size, whole = 0, False
     try:
         while True:
@@ -80,10 +121,12 @@ def run_uart(command, image, picture, seconds):
                 fail(f"{image}: the emulator ended with status {ended}")
             if time.monotonic() > end:
                 fail(f"{image}: no whole picture after {seconds} seconds")
+            progress.update(picture)
             time.sleep(0.1 if whole else 0.02)
     finally:
         process.kill()
         process.wait()
+        progress.wipe()
 
 
 def main():
@@ -111,15 +154,16 @@ def main():
 
     report = {"flash": sizes["flash"], "ram": sizes["ram"]}
     if args.qemu:
-        part = args.picture + ".part"
-        if os.path.exists(part):
-            os.remove(part)
+        part, counted = args.picture + ".part", args.picture + ".rays"
+        for old in (part, counted):
+            if os.path.exists(old):
+                os.remove(old)
         command = shlex.split(args.qemu)
         values = {}
         if args.uart:
-            run_uart(command, args.image, part, args.seconds)
+            run_uart(command, args.image, part, args.seconds, "drawing")
         else:
-            values = run_semihosting(command, args.image, part, args.seconds)
+            values = run_semihosting(command, args.image, part, args.seconds, "drawing")
         width, height = expect_whole(part, args.image)
         pixels = width * height
         if "stack" in values:
@@ -131,8 +175,8 @@ def main():
     if args.qemu:
         report["pixels"] = pixels
         if args.rays:
-            counted = args.picture + ".rays"
-            report["rays"] = int(run_semihosting(command, args.rays, counted, args.seconds)["rays"])
+            counts = run_semihosting(command, args.rays, counted, args.seconds, "counting rays")
+            report["rays"] = int(counts["rays"])
             with open(part, "rb") as one, open(counted, "rb") as other:
                 if one.read() != other.read():
                     fail(f"{args.rays}: counting rays changed the picture")
