@@ -88,7 +88,8 @@ def sentences(n):
         least, middle = n.arithmetic("q16")
         share = [f"{100 * n.ratio(b, with_dial('q16'), BEST):.0f} % ({runs.BOARDS[b]})" for b in soft]
         out.append(f"`q16` takes {listed(share)} of the instructions of `q32`, and its arithmetic has "
-                   f"{middle:.0f} dB (median; {least:.0f} at least).")
+                   f"{middle:.0f} dB on the scenes of `scenes/` (median; {least:.0f} at least there: where many mirrors "
+                   "show one another, it has less).")
     return "\n".join(out)
 
 
