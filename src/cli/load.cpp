@@ -12,18 +12,14 @@ namespace {
 
 scene::Description loaded;
 
-void warn(const char* scene, uint32_t count, uint32_t line, const char* what)
-{
-    if (count == 0)
-        return;
-    fprintf(stderr, "%s:%u: warning: %s", scene::ShownName(scene).text, line, what);
-    if (count > 1)
-        fprintf(stderr, "; %u objects in all", count);
-    fputc('\n', stderr);
-}
 void warn(const char* scene, const scene::Warning& w)
 {
-    warn(scene, w.count, w.line, w.text);
+    if (w.count == 0)
+        return;
+    fprintf(stderr, "%s:%u: warning: %s", scene::ShownName(scene).text, w.line, w.text);
+    if (w.count > 1)
+        fprintf(stderr, "; %u objects in all", w.count);
+    fputc('\n', stderr);
 }
 
 } // namespace
@@ -63,8 +59,9 @@ int load(const Options& options, const Renderer& renderer, const char* out, Buil
             fprintf(stderr, " (and so for %u more)", loaded.clamped - 1);
         if (loaded.clamped != 0)
             fputc('\n', stderr);
-        warn(options.scene, loaded.dropped, "without extent, left out");
-        warn(options.scene, built.vanished, "too small for the number system, left out");
+        warn(options.scene, loaded.empty);
+        warn(options.scene, loaded.nonplanar);
+        warn(options.scene, built.lost);
     }
     return go_on;
 }

@@ -40,7 +40,7 @@ template <class N>
 uint32_t table_bytes(const scene::Storage<N>& s)
 {
     size_t sum = 0;
-    scene::for_each_table(s, s.effects, [&sum](const auto& array, const char*, const char*, const char*) {
+    scene::for_each_table(s, s.effects, [&sum](const auto& array, const char*, const char*) {
         sum += array.count * sizeof *array.data;
     });
     return static_cast<uint32_t>(sum);

@@ -1,10 +1,12 @@
 #include "stats.hpp"
 
 #include "../scene/effect_names.hpp"
-#include "../scene/reader.hpp"
+#include "../scene/shapes.hpp"
 
 #include <inttypes.h>
 #include <stdio.h>
+
+#include <iterator>
 
 namespace qray::cli {
 
@@ -12,27 +14,24 @@ namespace {
 
 void print_objects(const scene::Description& d)
 {
-    uint32_t spheres = 0, cones = 0, polygons = 0, patches = 0, planes = 0, discs = 0, suns = 0;
-    for (uint32_t i = 0; i < d.object_count; i++)
-        switch (d.objects[i].shape) {
-        case scene::Shape::sphere: spheres++; break;
-        case scene::Shape::cone: cones++; break;
-        case scene::Shape::polygon: polygons++; break;
-        case scene::Shape::patch: patches++; break;
-        case scene::Shape::plane: planes++; break;
-        case scene::Shape::disc: discs++; break;
+    const auto print = [](const char* name, uint32_t count) { fprintf(stderr, "%s: %" PRIu32 "\n", name, count); };
+    print("objects", d.object_count);
+    scene::for_each_host([&](auto host, Kind kind) {
+        for (uint8_t entity = 0; entity < std::size(host.entities); entity++) {
+            uint32_t count = 0;
+            for (uint32_t i = 0; i < d.object_count; i++)
+                count += d.objects[i].kind == kind && d.objects[i].entity == entity;
+            print(host.entities[entity].plural, count);
         }
+    });
+    uint32_t suns = 0;
     for (uint32_t i = 0; i < d.light_count; i++)
         suns += d.lights[i].sun;
-    const struct {
-        const char* name;
-        uint32_t count;
-    } lines[] = {{"objects", d.object_count}, {"spheres", spheres},     {"cones", cones},
-                 {"polygons", polygons},      {"patches", patches},     {"planes", planes},
-                 {"discs", discs},            {"vertices", d.vertex_count}, {"materials", d.fill_count},
-                 {"lights", d.light_count - suns}, {"suns", suns},      {"dropped", d.dropped}};
-    for (const auto& line : lines)
-        fprintf(stderr, "%s: %" PRIu32 "\n", line.name, line.count);
+    print("vertices", d.vertex_count);
+    print("materials", d.fill_count);
+    print("lights", d.light_count - suns);
+    print("suns", suns);
+    print("dropped", d.dropped);
 }
 
 } // namespace

@@ -10,11 +10,6 @@
 
 namespace qray::scene {
 
-// The ball of a shape in double, in the moved and scaled scene.
-struct Ball {
-    double x, y, z, radius;
-};
-
 template <class N>
 class TreeBuilder {
 public:
@@ -22,13 +17,11 @@ public:
 
     void build()
     {
-        const uint32_t count = s.spheres.count + s.discs.count + s.cones.count + s.polygons.count + s.patches.count;
         s.shape_ids.count = s.blocks.count = 0;
-        add(Kind::sphere, s.spheres.count);
-        add(Kind::disc, s.discs.count);
-        add(Kind::cone, s.cones.count);
-        add(Kind::polygon, s.polygons.count);
-        add(Kind::patch, s.patches.count);
+#define QRAY_ADD(Type, name, table) add(Kind::name, s.table.count);
+        QRAY_SHAPES(QRAY_ADD)
+#undef QRAY_ADD
+        const uint32_t count = s.shape_ids.count;
         // What spans much of the scene stands apart, in front.
         if (count > 4)
             std::sort(s.shape_ids.data, s.shape_ids.data + count, [this](ShapeId a, ShapeId b) {
@@ -53,33 +46,14 @@ private:
             s.shape_ids.push() = shape_id(kind, i);
     }
 
-    template <class L>
-    static double value(L v)
-    {
-        if constexpr (N::is_fixed)
-            return ldexp(v.raw, -L::frac);
-        else
-            return static_cast<double>(v);
-    }
-    static Ball ball_of(const Point<N>& c, double r) { return {value(c.x), value(c.y), value(c.z), r}; }
-
     Ball ball(ShapeId id) const
     {
-        const uint32_t i = id.index();
         switch (id.kind()) {
-        case Kind::sphere: {
-            const Sphere<N>& sphere = s.spheres.data[i];
-            return ball_of(sphere.centre, ldexp(value(sphere.radius), -sphere.fine));
+#define QRAY_BALL(Type, name, table) case Kind::name: return Host<Type>::bound(s.table.data[id.index()]);
+            QRAY_SHAPES(QRAY_BALL)
+#undef QRAY_BALL
         }
-        case Kind::disc: return ball_of(s.discs.data[i].centre, value(s.discs.data[i].radius));
-        case Kind::cone: {
-            const Cone<N>& cone = s.cones.data[i];
-            return ball_of(cone.middle, ldexp(value(cone.bound), -cone.fine));
-        }
-        case Kind::polygon: return ball_of(s.polygons.data[i].middle, value(s.polygons.data[i].bound));
-        case Kind::patch: break;
-        }
-        return ball_of(s.patches.data[i].middle, value(s.patches.data[i].bound));
+        __builtin_unreachable();
     }
 
     // Morton order of the centre, 16 bits an axis over +-64; the large ones first.

@@ -15,7 +15,7 @@ template <class N>
 class Builder {
 public:
     // `into` has the room that into.lay_out(from) asks for.
-    Builder(const Description& from, const Settings& with, Storage<N>& into) : d(from), settings(with), s(into) {}
+    Builder(const Description& from, const Settings& with, Storage<N>& into) : d(from), s(into), settings(with) {}
 
     // False, and a reason in `error` without a place, where the scene does not fit the number system.
     bool build(Error& error)
@@ -31,13 +31,8 @@ public:
         fit();
         if (!fine_enough(error))
             return false;
-        resolution.pairs(s.order.data);
-        // Patches first: a corner's normal has the number of the corner, and polygons need none.
-        for (const bool patches : {true, false}) {
-            place = 0;
-            for (uint32_t i = 0; i < d.object_count; i++)
-                add(d.objects[i], patches);
-        }
+        resolution.pairs(s.sorted.data);
+        shapes();
         lights();
         materials();
         camera();
@@ -47,18 +42,70 @@ public:
         return true;
     }
 
-private:
-    // What block-scaled radii may be: see cone.hpp, q16.hpp.
-    static constexpr double cone_world = NarrowFixed<N> ? 18 : 40, sphere_world = 31.9;
-
-    static constexpr bool is_float = !N::is_fixed && sizeof(typename N::Length) == 4;
-
+    // What the shapes' hosts convert with.
+    using Number = N;
     const Description& d;
-    const Settings& settings;
     Storage<N>& s;
     Frame frame;
+
+    Point<N> point(const Vec3d& p) const { return Convert<N>::point(frame.point(p)); }
+    typename N::Length length(double r) const { return Convert<N>::length(r * frame.scale); }
+    // A bound that rounding does not make too small. In q16 that of corners and of the middle, sqrt(3) ulp, and the 3 and
+    // more of its reject: see reject.hpp.
+    typename N::Length bound(double r) const
+    {
+        return Convert<N>::length(r * frame.scale * (1 + 1e-6) + (NarrowFixed<N> ? 6.0 / 1024 : 2e-6));
+    }
+
+    // The most bits that a shape of this size can have beyond Length's: 2^fine times it, and a little more that a
+    // conservative test may let pass, stays within `most`.
+    int fine_for(double size, double most) const
+    {
+        int fine = 0;
+        if constexpr (N::is_fixed)
+            while (fine < 10 && ldexp(size * frame.scale + (NarrowFixed<N> ? 1.0 / 128 : 1.0 / 16), fine + 1) <= most)
+                fine++;
+        return fine;
+    }
+
+    void leave_out(const Object& o)
+    {
+        s.vanished++;
+        s.lost.note(o.line, "a %s too small for steps of %.3g, left out", name_of(o), resolution.step());
+    }
+
+    // Smaller than the step by which a ray leaves a surface, a ball cannot hold what starts inside of it.
+    static bool too_small_to_leave(typename N::Length r)
+    {
+        if constexpr (N::is_fixed)
+            return r < N::leave(N::one);
+        else
+            return vanishes(r);
+    }
+
+    // The squares of less than 2^-40 of a world of +-62, to the last bit of float, are too small for it:
+    // normals would be of any length.
+    static bool vanishes(typename N::Length r)
+    {
+        if constexpr (is_float)
+            return r < 0x1p-40f;
+        else
+            return r == N::length_zero;
+    }
+
+    // The number of the first of some corners, now in the scene's vertices.
+    uint32_t push_corners(const Object& o)
+    {
+        const uint32_t first = s.vertices.count;
+        for (uint32_t i = 0; i < o.count; i++)
+            s.vertices.push() = point(d.vertices[o.vertex + i]);
+        return first;
+    }
+
+private:
+    static constexpr bool is_float = !N::is_fixed && sizeof(typename N::Length) == 4;
+    const Settings& settings;
     Resolution<N> resolution{d, frame, s.lost};
-    uint32_t place = 0;
 
     // A tag has room for so many places, but for the one that names no surface.
     bool few_enough(Error& error) const
@@ -105,27 +152,27 @@ private:
         Box box;
         box.add(d.view.from);
         box.add(d.view.at);
-        double cone = 0;
-        bool planes = false;
+        double needed = 0; // in units of what a point's coordinates may be
+        bool endless = false;
         for (uint32_t i = 0; i < d.object_count; i++) {
-            add_object(box, d, d.objects[i]);
-            if (d.objects[i].shape == Shape::cone)
-                cone = fmax(cone, cone_bound(d.objects[i]));
-            planes = planes || d.objects[i].shape == Shape::plane;
+            const Object& o = d.objects[i];
+            add_object(box, d, o);
+            needed = fmax(needed, with_host(o.kind, [&o](auto host) { return host.template range<N>(o); }));
+            endless = endless || is_endless(o);
         }
         Frame& f = frame;
         f.centre = (box.low + box.high) * 0.5;
-        f.radius = length(box.high - box.low) / 2;
+        f.radius = scene::length(box.high - box.low) / 2;
         f.far = d.far > 0 ? d.far : 16 * f.radius;
-        const double reach = planes ? fmax(f.radius, f.far) : f.radius;
+        const double reach = endless ? fmax(f.radius, f.far) : f.radius;
         int exponent = 0;
-        frexp(fmax(reach / world, cone / cone_world), &exponent);
+        frexp(fmax(reach / world, needed), &exponent);
         f.scale = ldexp(1, -exponent);
         // On a coarse lattice, so that coordinates that are round in the file stay so.
         const double step = f.scale * 64;
         f.origin = {round(f.centre.x * step) / step, round(f.centre.y * step) / step, round(f.centre.z * step) / step};
         f.eye = resolution.eye();
-        f.pushed = length(f.eye - d.view.from);
+        f.pushed = scene::length(f.eye - d.view.from);
         // At most half an ulp from there, so that the eye, where all rays start, is not rounded.
         if constexpr (WideFixed<N>) {
             const auto moved = [&f](double origin, double eye) {
@@ -136,204 +183,23 @@ private:
         }
     }
 
-    Point<N> point(const Vec3d& p) const { return Convert<N>::point(frame.point(p)); }
-    typename N::Length radius(double r) const { return Convert<N>::length(r * frame.scale); }
-    // A bound that rounding does not make too small. In q16 that of corners and of the middle, sqrt(3) ulp, and the 3 and
-    // more of its reject: see reject.hpp.
-    typename N::Length bound(double r) const
+    // What is smooth first: a corner's shading normal has the number of the corner, and other figures need none.
+    void shapes()
     {
-        return Convert<N>::length(r * frame.scale * (1 + 1e-6) + (NarrowFixed<N> ? 6.0 / 1024 : 2e-6));
-    }
-
-    void add(const Object& o, bool patches)
-    {
-        if ((o.shape == Shape::patch) != patches) {
-            place += surfaces_of(o);
-            return;
-        }
-        const Tag tag = make_tag(place, o.fill);
-        const uint32_t vanished = s.vanished;
-        switch (o.shape) {
-        case Shape::sphere: sphere(o, tag); break;
-        case Shape::disc: disc(o, point(o.a), unit(o.b), o.ra, tag); break;
-        case Shape::plane: plane(o, tag); break;
-        case Shape::cone: cone(o, tag); break;
-        case Shape::polygon: polygon(o, tag); break;
-        case Shape::patch: patch(o); break;
-        }
-        place += o.shape != Shape::patch;
-        if (s.vanished == vanished)
-            resolution.span(o);
-    }
-
-    // The most bits that a shape of this size can have beyond Length's: 2^fine times it, and a little more that a
-    // conservative test may let pass, stays within `most`.
-    int fine_for(double size, double most) const
-    {
-        int fine = 0;
-        if constexpr (N::is_fixed)
-            while (fine < 10 && ldexp(size * frame.scale + (NarrowFixed<N> ? 1.0 / 128 : 1.0 / 16), fine + 1) <= most)
-                fine++;
-        return fine;
-    }
-
-    void vanish(const Object& o)
-    {
-        s.vanished++;
-        s.lost.note(o.line, "a %s too small for steps of %.3g, left out", shape_names[static_cast<int>(o.shape)],
-                    resolution.step());
-    }
-
-    // Smaller than the step by which a ray leaves a surface, a ball cannot hold what starts inside of it.
-    static bool too_small(typename N::Length r)
-    {
-        if constexpr (N::is_fixed)
-            return r < N::leave(N::one);
-        else
-            return vanishes(r);
-    }
-
-    // The squares of less than 2^-40 of a world of +-62, to the last bit of float, are too small for it:
-    // normals would be of any length.
-    static bool vanishes(typename N::Length r)
-    {
-        if constexpr (is_float)
-            return r < 0x1p-40f;
-        else
-            return r == N::length_zero;
-    }
-
-    void sphere(const Object& o, Tag tag)
-    {
-        if (too_small(radius(o.ra))) {
-            vanish(o);
-            return;
-        }
-        const int fine = fine_for(o.ra, sphere_world);
-        const auto r = radius(ldexp(o.ra, fine));
-        s.spheres.push() = {point(o.a), r, Convert<N>::inverse(r), fine, tag,
-                            Convert<N>::rounded(frame.point(o.a), fine)};
-    }
-
-    void disc(const Object& o, const Point<N>& centre, const Vec3d& n, double r, Tag tag)
-    {
-        if (radius(r) == N::length_zero) {
-            vanish(o);
-            return;
-        }
-        s.discs.push() = {centre, Convert<N>::direction(n), radius(r), tag};
-    }
-
-    void plane(const Object& o, Tag tag)
-    {
-        const Vec3d n = unit(o.b);
-        const double height = dot(n, o.a - frame.centre);
-        if (fabs(height) < frame.far)
-            disc(o, point(frame.centre + n * height), n, sqrt(frame.far * frame.far - height * height), tag);
-    }
-
-    void cone(const Object& o, Tag tag)
-    {
-        const Vec3d along = o.b - o.a;
-        const double height = length(along);
-        const Vec3d axis = unit(along);
-        const double growth = (o.rb - o.ra) / height;
-        const double cosine = 1 / sqrt(1 + growth * growth), sine = growth * cosine;
-        if (vanishes(radius(fmax(o.ra, o.rb))) || vanishes(radius(height))) {
-            vanish(o);
-            return;
-        }
-        const Vec3d e1 = unit_across(axis), e2 = cross(axis, e1);
-        const int fine = fine_for(cone_bound(o), cone_world);
-        const double up = ldexp(1, fine);
-        s.cones.push() = {point((o.a + o.b) * 0.5),
-                          Convert<N>::direction(e1),
-                          Convert<N>::direction(e2),
-                          Convert<N>::direction(axis),
-                          radius(cosine * (o.ra + o.rb) / 2 * up),
-                          radius(height / 2 * up),
-                          bound(cone_bound(o) * up),
-                          Convert<N>::unit(cosine),
-                          Convert<N>::unit(sine),
-                          fine,
-                          tag,
-                          Convert<N>::rounded(frame.point((o.a + o.b) * 0.5), fine)};
-    }
-
-    // The ball around the middle of the box of corner(0) to corner(count - 1).
-    struct CornerBall {
-        Point<N> middle;
-        typename N::Length radius;
-    };
-    template <class Corner>
-    CornerBall ball(uint32_t count, Corner corner) const
-    {
-        Box box;
-        for (uint32_t i = 0; i < count; i++)
-            box.add(corner(i));
-        const Vec3d centre = (box.low + box.high) * 0.5;
-        double far = 0;
-        for (uint32_t i = 0; i < count; i++)
-            far = fmax(far, length(corner(i) - centre));
-        return {point(centre), bound(far)};
-    }
-
-    // Do rounded corners not all fall on one point?
-    static bool spans(const Point<N>* corners, uint32_t count)
-    {
-        for (uint32_t i = 1; i < count; i++)
-            if (!(corners[i] == corners[0]))
-                return true;
-        return false;
-    }
-
-    // The number of the first of some corners, now in the scene's vertices.
-    uint32_t push_corners(const Object& o)
-    {
-        const uint32_t first = s.vertices.count;
-        for (uint32_t i = 0; i < o.count; i++)
-            s.vertices.push() = point(d.vertices[o.vertex + i]);
-        return first;
-    }
-
-    void polygon(const Object& o, Tag tag)
-    {
-        const Vec3d* v = d.vertices + o.vertex;
-        const Vec3d g = across(v, o.count);
-        const uint32_t first = push_corners(o);
-        if (!(length(g) > 0) || !spans(s.vertices.data + first, o.count)) {
-            s.vertices.count = first;
-            vanish(o);
-            return;
-        }
-        const CornerBall around = ball(o.count, [v](uint32_t i) { return v[i]; });
-        s.polygons.push() = {Convert<N>::direction(unit(g)), around.middle, around.radius, first, o.count, tag};
-    }
-
-    void patch(const Object& o)
-    {
-        // Blended as they are given: only their proportion within the patch counts.
-        double longest = 0;
-        for (uint32_t i = 0; i < o.count; i++)
-            longest = fmax(longest, length(d.normals[o.vertex + i]));
-        const uint32_t first = push_corners(o);
-        for (uint32_t i = 0; i < o.count; i++)
-            s.normals.push() = Convert<N>::direction(d.normals[o.vertex + i] * (1 / longest));
-        for (uint32_t i = 1; i + 1 < o.count; i++, place++) {
-            const Vec3d* v = d.vertices + o.vertex;
-            const Vec3d corners[3] = {v[0], v[i], v[i + 1]};
-            const Vec3d g = triangle_area(corners[0], corners[1], corners[2]);
-            const Point<N> rounded[3] = {s.vertices.data[first], s.vertices.data[first + i],
-                                         s.vertices.data[first + i + 1]};
-            if (!(length(g) > 0)) // the parser has counted it
-                continue;
-            if (!spans(rounded, 3)) {
-                vanish(o);
-                continue;
+        for (const bool smooth : {true, false}) {
+            uint32_t place = 0;
+            for (uint32_t i = 0; i < d.object_count; i++) {
+                const Object& o = d.objects[i];
+                with_shape_of<N>(o.kind, [&]<class Shape>(auto host) {
+                    if (Shape::is_smooth == smooth) {
+                        const uint32_t vanished = s.vanished;
+                        host.convert(*this, o, place);
+                        if (s.vanished == vanished)
+                            resolution.span(o);
+                    }
+                    place += host.surfaces_of(o);
+                });
             }
-            const CornerBall around = ball(3, [&corners](uint32_t k) { return corners[k]; });
-            s.patches.push() = {Convert<N>::direction(unit(g)), around.middle, around.radius, first, first + i,
-                                make_tag(place, o.fill)};
         }
     }
 
@@ -349,7 +215,7 @@ private:
                 s.exposure++;
         s.background = colour(d.background);
         for (uint32_t i = 0; i < d.light_count; i++) {
-            const Light& l = d.lights[i];
+            const LightSource& l = d.lights[i];
             if (l.sun) {
                 s.suns.push() = {Convert<N>::direction(unit(l.at)), colour(l.colour)};
                 continue;
@@ -357,7 +223,7 @@ private:
             Vec3d at = frame.point(l.at);
             int shift = 0;
             if constexpr (N::is_fixed)
-                for (; (NarrowFixed<N> ? length(at) : largest(at)) > world; at = at * 0.5)
+                for (; (NarrowFixed<N> ? scene::length(at) : largest(at)) > world; at = at * 0.5)
                     shift++;
             // So far away that it is a sun; in float, its square would be infinite.
             if (shift > 30 || (is_float && largest(at) > 0x1p60)) {
@@ -387,56 +253,54 @@ private:
         }
     }
 
+    // The coordinates of a texture, in its own size: see the textures' headers.
+    struct Make {
+        const Texture& t;
+        const Frame& frame;
+        // What keeps a surface in a plane of the lattice clean: not less than a hit may lie off its surface.
+        double epsilon() const
+        {
+            return NarrowFixed<N> ? fmax(1.0 / 1024, ldexp(1.5, -10) / (t.size * frame.scale)) : 1.0 / 1024;
+        }
+        Vec3d direction() const { return scene::length(t.axis) > 0 ? unit(t.axis) : Vec3d{0, 1, 0}; }
+        LatticeAxis<N> axis(const Vec3d& along, double offset, bool wraps) const
+        {
+            return Convert<N>::axis(along * (1 / t.size), frame.origin, frame.scale, offset, wraps);
+        }
+
+        Vec<typename N::Unit> colour() const { return surface(t.colour); }
+        // Cells along x, y and z; of y so many to a size.
+        Lattice<N> lattice(bool clean, int courses = 1) const
+        {
+            const auto step = [&](const Vec3d& along) {
+                return Convert<N>::step(axis(along, clean ? epsilon() : 0, true));
+            };
+            return {step({1, 0, 0}), step({0, static_cast<double>(courses), 0}), step({0, 0, 1})};
+        }
+        LatticeAxis<N> along_axis(bool clean, bool wraps) const
+        {
+            return axis(direction(), clean ? epsilon() : 0, wraps);
+        }
+        LatticeAxis<N> across_axis(int which) const
+        {
+            const Vec3d u = unit_across(direction());
+            return axis(which == 0 ? u : cross(direction(), u), 0, false);
+        }
+        LatticeAxis<N> along_x() const { return axis({1, 0, 0}, 0, false); }
+        LatticeAxis<N> along_z() const { return axis({0, 0, 1}, 0, false); }
+    };
+
     TextureRef texture(const Texture& t)
     {
-        // Not less than a hit may lie off its surface.
-        const double epsilon = NarrowFixed<N> ? fmax(1.0 / 1024, ldexp(1.5, -10) / (t.size * frame.scale)) : 1.0 / 1024;
-        const double k = 1 / t.size;
-        const auto n = surface(t.colour);
-        const auto axis = [&](const Vec3d& direction, double offset, bool wraps) {
-            return Convert<N>::axis(direction * k, frame.origin, frame.scale, offset, wraps);
-        };
-        const auto step = [&](const Vec3d& direction, double offset) {
-            return Convert<N>::step(axis(direction, offset, true));
-        };
-        const auto lattice = [&](double offset) {
-            return Lattice<N>{step({1, 0, 0}, offset), step({0, 1, 0}, offset), step({0, 0, 1}, offset)};
-        };
-        const auto latest = [&t](const auto& table) {
+        const auto push = [&t, this](auto& table) {
+            table.push() = std::remove_reference_t<decltype(*table.data)>::made(Make{t, frame});
             return TextureRef{t.kind, static_cast<uint16_t>(table.count - 1)};
         };
-        const Vec3d a = length(t.axis) > 0 ? unit(t.axis) : Vec3d{0, 1, 0};
         switch (t.kind) {
         case TextureKind::none: break;
-        case TextureKind::checker:
-            s.checkers.push() = {n, lattice(epsilon)};
-            return latest(s.checkers);
-        case TextureKind::stripes:
-            s.stripes.push() = {n, axis(a, epsilon, true)};
-            return latest(s.stripes);
-        case TextureKind::gradient:
-            s.gradients.push() = {n, axis(a, 0, false)};
-            return latest(s.gradients);
-        case TextureKind::rings:
-            s.rings.push() = {n, axis({1, 0, 0}, 0, false), axis({0, 0, 1}, 0, false)};
-            return latest(s.rings);
-        case TextureKind::noise:
-            s.noises.push() = {n, lattice(0)};
-            return latest(s.noises);
-        case TextureKind::marble:
-            s.marbles.push() = {n, lattice(0), axis(a, 0, true)};
-            return latest(s.marbles);
-        case TextureKind::wood: {
-            const Vec3d e1 = unit_across(a), e2 = cross(a, e1);
-            s.woods.push() = {n, lattice(0), axis(e1, 0, false), axis(e2, 0, false)};
-            return latest(s.woods);
-        }
-        case TextureKind::brick: {
-            Lattice<N> l = lattice(epsilon);
-            l.y = step({0, 2, 0}, epsilon);
-            s.bricks.push() = {n, l};
-            return latest(s.bricks);
-        }
+#define QRAY_CASE(Type, name, table) case TextureKind::name: return push(s.table);
+            QRAY_TEXTURES(QRAY_CASE)
+#undef QRAY_CASE
         }
         return {TextureKind::none, 0};
     }
@@ -481,21 +345,11 @@ private:
     void effects()
     {
         Effects e;
-        e.sphere = s.spheres.count != 0;
-        e.disc = s.discs.count != 0;
-        e.cone = s.cones.count != 0;
-        e.polygon = s.polygons.count != 0;
-        e.patch = s.patches.count != 0;
-        e.checker = s.checkers.count != 0;
-        e.stripes = s.stripes.count != 0;
-        e.gradient = s.gradients.count != 0;
-        e.rings = s.rings.count != 0;
-        e.noise = s.noises.count != 0;
-        e.marble = s.marbles.count != 0;
-        e.wood = s.woods.count != 0;
-        e.brick = s.bricks.count != 0;
-        e.light = s.lights.count != 0;
-        e.sun = s.suns.count != 0;
+#define QRAY_HAS(Type, name, table) e.name = s.table.count != 0;
+        QRAY_SHAPES(QRAY_HAS)
+        QRAY_TEXTURES(QRAY_HAS)
+        QRAY_LIGHTS(QRAY_HAS)
+#undef QRAY_HAS
         bool lit = false, transmits = false;
         for (uint32_t i = 0; i < d.fill_count; i++) {
             const Fill& f = d.fills[i];

@@ -38,14 +38,11 @@ struct View {
     uint32_t width = 0, height = 0;
 };
 
-using qray::TextureKind;
-constexpr int texture_count = static_cast<int>(TextureKind::brick) + 1; // none among them
-
 struct Texture {
     TextureKind kind = TextureKind::none;
     Vec3d colour;    // N, the texture's own colour
     double size = 1; // > 0
-    Vec3d axis;      // as given, not normalised; stripes, gradient, marble and wood only, else zero
+    Vec3d axis;      // as given, not normalised, of those that have one; else zero
     friend bool operator==(const Texture&, const Texture&) = default;
 };
 
@@ -57,23 +54,20 @@ struct Fill {
     friend bool operator==(const Fill&, const Fill&) = default;
 };
 
-struct Light {
+struct LightSource {
     bool sun = false;
     Vec3d at;     // position, or for a sun the direction it shines from (not normalised)
     Vec3d colour; // resolved: 1/sqrt(n) where the text gave none
 };
 
-enum class Shape : uint8_t { sphere, cone, polygon, patch, plane, disc };
-constexpr int shape_count = static_cast<int>(Shape::disc) + 1;
-
 struct Object {
-    Shape shape = Shape::sphere;
-    uint32_t fill = 0;                 // index into fills
-    Vec3d a;                           // centre | base | - | - | point | centre
-    Vec3d b;                           // - | apex end | - | - | normal | normal (as given)
-    double ra = 0, rb = 0;             // radius, - | base, apex radius | - | - | - | radius, -
-    uint32_t vertex = 0, count = 0;    // polygon, patch: first corner, number of corners
-    uint32_t line = 0;                 // of the text
+    Kind kind{};
+    uint8_t entity = 0;             // by which of its Host's entities the text says it
+    uint32_t fill = 0;              // index into fills
+    Vec3d a, b;                     // as the shape's header in src/scene/shape has them: centre, base, normal ...
+    double ra = 0, rb = 0;          // radii
+    uint32_t vertex = 0, count = 0; // corners: the first, and how many
+    uint32_t line = 0;              // of the text
 };
 
 // What is not drawn as the text has it: so many objects, and the first of them.
@@ -99,6 +93,12 @@ struct Error {
     char text[512] = {};
 };
 
+// An object by what it is sorted by.
+struct SortedObject {
+    double x, y, z;
+    uint32_t index;
+};
+
 struct Description {
     View view;
     Vec3d background;
@@ -107,6 +107,8 @@ struct Description {
     double far = 0; // 0: the default, 16 scene radii
     uint32_t object_count = 0, vertex_count = 0, fill_count = 0, light_count = 0;
     uint32_t dropped = 0; // objects and triangles of patches without extent, left out
+    Warning empty{};      // of these, what has a radius of 0
+    Warning nonplanar{};  // polygons of which a corner is off the plane by more than 1 % of their size
     uint32_t clamped = 0; // numbers of `f` outside of their ranges
     Error first_clamped;  // says so of the first of them
     char comment[256] = {}; // the first comment that says something, without its '#'; else empty
@@ -115,7 +117,7 @@ struct Description {
     Vec3d* vertices = nullptr;
     Vec3d* normals = nullptr; // patches only, at the corner's index, as given
     Fill* fills = nullptr;
-    Light lights[Limits::lights];
+    LightSource lights[Limits::lights];
 
     // Cuts arrays for so many, and as many fills as objects, from the room where it is large enough; returns how many
     // bytes it must have.

@@ -2,60 +2,51 @@
 // programs that include <qray/qray.hpp>. It holds what the scene calls for and nothing else.
 #pragma once
 
+#include <string_view>
 #include <type_traits>
 
 #include "effect_names.hpp"
+#include "members.hpp"
 #include "source.hpp"
 #include "storage.hpp"
 
 namespace qray::scene {
 
-// Calls f(array, type, name, fields) for each table that a tracer for e needs of a scene, in Scene's order.
+// What a compiled scene says of the columns of a table.
+constexpr const char* fields_of(std::string_view table)
+{
+    constexpr struct {
+        std::string_view table;
+        const char* fields;
+    } known[] = {
+#define QRAY_FIELDS(Type, name, table) {#table, Host<Type>::fields},
+        QRAY_SHAPES(QRAY_FIELDS)
+#undef QRAY_FIELDS
+        {"vertices", "corners of polygons and patches"},
+        {"normals", "shading normals, as many as vertices"},
+        {"mattes", "by material: colour; ambient light; diffuse"},
+        {"highlights", "by material: amount; shine: whole, fraction"},
+        {"mirrors", "by material: amount"},
+        {"transmits", "by material: amount; 1 / index of refraction, index"},
+        {"textures", "by material: kind; index into the table of that kind"},
+        {"lights", "place / 2^shift; shift; colour"},
+        {"suns", "direction towards it; colour"},
+    };
+    for (const auto& k : known)
+        if (k.table == table)
+            return k.fields;
+    return "colour; coordinates";
+}
+
+// Calls f(array, type, name) for each table that a tracer for e needs of a scene, in Scene's order.
 template <class N, class F>
 void for_each_table(const Storage<N>& s, const Effects& e, F f)
 {
-    constexpr const char* lattice = NarrowFixed<N> ? "colour; x, y, z coordinate: row, frac, offset, whole"
-        : N::is_fixed                           ? "colour; x, y, z coordinate: row, shift, offset"
-                                                : "colour; x, y, z coordinate: row, inside, index";
-    const auto table = [&f](bool present, const auto& array, const char* type, const char* name,
-                            const char* fields) {
-        if (present && array.count != 0)
-            f(array, type, name, fields);
-    };
-    table(e.sphere, s.spheres, "Sphere<Number>", "spheres",
-          "centre; radius * 2^fine and its inverse; fine; tag; centre's rounding * 2^fine");
-    table(e.disc, s.discs, "Disc<Number>", "discs", "centre; normal; radius; tag");
-    table(e.cone, s.cones, "Cone<Number>", "cones",
-          "middle; across, across, axis; cosine * mean radius, half height, bound, all * 2^fine; "
-          "cosine, sine; fine; tag; middle's rounding * 2^fine");
-    table(e.polygon, s.polygons, "Polygon<Number>", "polygons",
-          "normal; middle and radius of a ball around it; first vertex, count; tag");
-    table(e.patch, s.patches, "Patch<Number>", "patches",
-          "normal; middle and radius of a ball around it; vertices: first, second; tag");
-    table(e.polygon || e.patch, s.vertices, "Point<Number>", "vertices",
-          "corners of polygons and patches");
-    table(e.patch, s.normals, "Direction<Number>", "normals", "shading normals, as many as vertices");
-
-    table(true, s.mattes, "Matte<Number>", "mattes", "by material: colour; ambient light; diffuse");
-    table(e.highlight, s.highlights, "Highlight<Number>", "highlights",
-          "by material: amount; shine: whole, fraction");
-    table(e.mirror, s.mirrors, "Mirror<Number>", "mirrors", "by material: amount");
-    table(e.transmit || e.see_through, s.transmits, "Transmit<Number>", "transmits",
-          "by material: amount; 1 / index of refraction, index");
-    table(e.texture(), s.textures, "TextureRef", "textures",
-          "by material: kind; index into the table of that kind");
-    table(e.checker, s.checkers, "Checker<Number>", "checkers", lattice);
-    table(e.stripes, s.stripes, "Stripes<Number>", "stripes", "colour; coordinate");
-    table(e.gradient, s.gradients, "Gradient<Number>", "gradients", "colour; coordinate");
-    table(e.rings, s.rings, "Rings<Number>", "rings", "colour; x and z coordinate");
-    table(e.noise, s.noises, "Noise<Number>", "noises", lattice);
-    table(e.marble, s.marbles, "Marble<Number>", "marbles",
-          "colour; x, y, z coordinate; the one across the veins");
-    table(e.wood, s.woods, "Wood<Number>", "woods", "colour; x, y, z coordinate; two across the grain");
-    table(e.brick, s.bricks, "Brick<Number>", "bricks", lattice);
-
-    table(e.light, s.lights, "Light<Number>", "lights", "place / 2^shift; shift; colour");
-    table(e.sun, s.suns, "Sun<Number>", "suns", "direction towards it; colour");
+#define QRAY_TABLE(Type, name, table) \
+    if (e.name && s.table.count != 0) \
+        f(s.table, #Type, #table);
+    QRAY_TABLES(QRAY_TABLE)
+#undef QRAY_TABLE
 }
 
 template <class N>
@@ -116,8 +107,8 @@ private:
         out.print("\ninline constexpr uint32_t width = %u, height = %u;\n", unsigned{s.camera.width},
                   unsigned{s.camera.height});
         effects();
-        for_each_table(s, e, [this](const auto& array, const char* type, const char* name, const char* fields) {
-            out.print("\n// %s\ninline constexpr qray::%s %s[] = {\n", fields, type, name);
+        for_each_table(s, e, [this](const auto& array, const char* type, const char* name) {
+            out.print("\n// %s\ninline constexpr qray::%s<Number> %s[] = {\n", fields_of(name), type, name);
             for (uint32_t i = 0; i < array.count; i++) {
                 out.put("    ");
                 value(array.data[i]);
@@ -141,7 +132,7 @@ private:
             member("levels", Single<uint8_t>{s.levels});
             member("threshold", Single<typename N::Unit>{s.threshold});
         }
-        for_each_table(s, e, [this](const auto& array, const char*, const char* name, const char*) {
+        for_each_table(s, e, [this](const auto& array, const char*, const char* name) {
             out.print("    .%s = {%s, %u},\n", name, name, static_cast<unsigned>(array.count));
         });
         out.put("};\n");
@@ -188,16 +179,14 @@ private:
     }
 
     // A braced list, all braces written.
-    template <class First, class... Rest>
-    void list(const First& first, const Rest&... rest)
+    template <class... Members>
+    void list(const Members&... members)
     {
-        out.put("{");
-        value(first);
-        ((out.put(", "), value(rest)), ...);
-        out.put("}");
+        [[maybe_unused]] const char* before = "{";
+        ((out.put(before), before = ", ", value(members)), ...);
+        out.put(sizeof...(members) == 0 ? "{}" : "}");
     }
 
-    // Each takes its structure apart: a new member is an error here until it is written too.
     void value(int64_t v) { out.number(v); }
     void value(int32_t v) { out.number(int64_t{v}); }
     void value(uint32_t v) { out.number(int64_t{v}); }
@@ -211,175 +200,20 @@ private:
         out.print("make_tag(%u, %u)", static_cast<unsigned>(v.place()), static_cast<unsigned>(v.material()));
     }
     template <class T>
-    void value(const Single<T>& v) { list(v.value); }
-    template <int F, int B>
-    void value(const Fixed<F, B>& v) { list(v.raw); }
-    template <class T>
     void value(const Vec<T>& v) { list(v.x, v.y, v.z); }
-    void value(const Rounded<N>& v)
+    void value(const Pencil<N>& v) { list(v.x, v.y, v.z); }
+    void value(TextureKind v)
     {
-        if constexpr (WideFixed<N>) {
-            const auto& [x, y, z] = v;
-            list(int32_t{x}, int32_t{y}, int32_t{z});
-        } else {
-            out.put("{}");
-        }
+#define QRAY_NAME(Type, name, table) , "qray::TextureKind::" #name
+        constexpr const char* names[] = {"qray::TextureKind::none" QRAY_TEXTURES(QRAY_NAME)};
+#undef QRAY_NAME
+        out.put(names[static_cast<int>(v)]);
     }
-    void value(const FixedScale& v)
+    template <class T>
+        requires std::is_aggregate_v<T>
+    void value(const T& v)
     {
-        const auto& [mantissa, shift] = v;
-        list(mantissa, shift);
-    }
-    void value(const typename N::Shine& v)
-    {
-        const auto& [whole, fraction] = v;
-        list(whole, fraction);
-    }
-    void value(const Pencil<N>& v)
-    {
-        list(v.x, v.y, v.z);
-    }
-
-    void value(const Sphere<N>& v)
-    {
-        const auto& [centre, radius, inverse_radius, fine, tag, rounded] = v;
-        list(centre, radius, inverse_radius, fine, tag, rounded);
-    }
-    void value(const Disc<N>& v)
-    {
-        const auto& [centre, normal, radius, tag] = v;
-        list(centre, normal, radius, tag);
-    }
-    void value(const Cone<N>& v)
-    {
-        const auto& [middle, e1, e2, axis, rho0, half, bound, cosine, sine, fine, tag, rounded] = v;
-        list(middle, e1, e2, axis, rho0, half, bound, cosine, sine, fine, tag, rounded);
-    }
-    void value(const Polygon<N>& v)
-    {
-        const auto& [normal, middle, bound, first, count, tag] = v;
-        list(normal, middle, bound, first, count, tag);
-    }
-    void value(const Patch<N>& v)
-    {
-        const auto& [normal, middle, bound, first, second, tag] = v;
-        list(normal, middle, bound, first, second, tag);
-    }
-
-    void value(const EyeSurface<N>& v)
-    {
-        const auto& [tag, normal] = v;
-        list(tag, normal);
-    }
-    void value(const Matte<N>& v)
-    {
-        const auto& [colour, ambient, diffuse] = v;
-        list(colour, ambient, diffuse);
-    }
-    void value(const Highlight<N>& v)
-    {
-        const auto& [amount, shine] = v;
-        list(amount, shine);
-    }
-    void value(const Mirror<N>& v)
-    {
-        const auto& [amount] = v;
-        list(amount);
-    }
-    void value(const Transmit<N>& v)
-    {
-        const auto& [amount, inward, outward] = v;
-        list(amount, inward, outward);
-    }
-    void value(const TextureRef& v)
-    {
-        const auto& [kind, index] = v;
-        constexpr const char* names[] = {"none",  "checker", "stripes", "gradient", "rings",
-                                         "noise", "marble",  "wood",    "brick"};
-        out.print("{qray::TextureKind::%s, %u}", names[static_cast<int>(kind)], unsigned{index});
-    }
-
-    void value(const LatticeAxis<N>& v)
-    {
-        if constexpr (NarrowFixed<N>) {
-            const auto& [x, y, z, frac, offset, whole] = v;
-            list(x, y, z, frac, offset, whole);
-        } else if constexpr (N::is_fixed) {
-            const auto& [x, y, z, shift, offset] = v;
-            list(x, y, z, shift, offset);
-        } else {
-            const auto& [x, y, z, inside, index, offset] = v;
-            list(x, y, z, inside, index, offset);
-        }
-    }
-    void value(const LatticeStep<N>& v)
-    {
-        if constexpr (NarrowFixed<N>) {
-            const auto& [row, frac, offset, whole] = v;
-            list(row, frac, offset, whole);
-        } else if constexpr (N::is_fixed) {
-            const auto& [row, shift, offset] = v;
-            list(row, shift, offset);
-        } else {
-            const auto& [row, inside, index] = v;
-            list(row, inside, index);
-        }
-    }
-    void value(const Lattice<N>& v)
-    {
-        const auto& [x, y, z] = v;
-        list(x, y, z);
-    }
-    void value(const Checker<N>& v)
-    {
-        const auto& [colour, lattice] = v;
-        list(colour, lattice);
-    }
-    void value(const Stripes<N>& v)
-    {
-        const auto& [colour, axis] = v;
-        list(colour, axis);
-    }
-    void value(const Gradient<N>& v)
-    {
-        const auto& [colour, axis] = v;
-        list(colour, axis);
-    }
-    void value(const Rings<N>& v)
-    {
-        const auto& [colour, x, z] = v;
-        list(colour, x, z);
-    }
-    void value(const Noise<N>& v)
-    {
-        const auto& [colour, lattice] = v;
-        list(colour, lattice);
-    }
-    void value(const Marble<N>& v)
-    {
-        const auto& [colour, lattice, axis] = v;
-        list(colour, lattice, axis);
-    }
-    void value(const Wood<N>& v)
-    {
-        const auto& [colour, lattice, e1, e2] = v;
-        list(colour, lattice, e1, e2);
-    }
-    void value(const Brick<N>& v)
-    {
-        const auto& [colour, lattice] = v;
-        list(colour, lattice);
-    }
-
-    void value(const qray::Light<N>& v)
-    {
-        const auto& [at, shift, colour] = v;
-        list(at, shift, colour);
-    }
-    void value(const Sun<N>& v)
-    {
-        const auto& [from, colour] = v;
-        list(from, colour);
+        with_members(v, [this](const auto&... members) { list(members...); });
     }
 };
 

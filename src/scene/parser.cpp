@@ -1,6 +1,6 @@
 // The grammar of the scene language, entity by entity, and all its checks.
 #include "geometry.hpp"
-#include "reader.hpp"
+#include "shapes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -48,12 +48,9 @@ struct TextureWord {
     TextureKind kind;
     bool has_axis;
 };
-constexpr TextureWord texture_words[] = {
-    {"checker", TextureKind::checker, false},  {"stripes", TextureKind::stripes, true},
-    {"gradient", TextureKind::gradient, true}, {"rings", TextureKind::rings, false},
-    {"noise", TextureKind::noise, false},      {"marble", TextureKind::marble, true},
-    {"wood", TextureKind::wood, true},         {"brick", TextureKind::brick, false},
-};
+#define QRAY_WORD(Type, name, table) {#name, TextureKind::name, Type<Double>::has_axis},
+constexpr TextureWord texture_words[] = {QRAY_TEXTURES(QRAY_WORD)};
+#undef QRAY_WORD
 
 // Whether `found` is `word` but for case and a letter or two: one too many, missing, another, or two exchanged.
 bool is_near(std::string_view found, std::string_view word) {
@@ -94,26 +91,6 @@ private:
     int used_ = 0;
 };
 
-// Whether n >= 3 corners enclose something. What rounding each coordinate to a double could make of an area
-// of 0 (up to 2^-50 times the largest coordinate times the extent, in each product) is none.
-bool has_area(const Vec3d* corners, uint32_t n, bool fan) {
-    double coordinate = largest(corners[0]), extent = 0;
-    for (uint32_t i = 1; i < n; ++i) {
-        coordinate = std::max(coordinate, largest(corners[i]));
-        extent = std::max(extent, largest(corners[i] - corners[0]));
-    }
-    if (extent < smallest_length) return false;
-    const double noise = 0x1p-50 * extent * coordinate;
-    Vec3d sum;
-    for (uint32_t i = 1; i + 1 < n; ++i) {
-        const Vec3d area = cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
-        // A polygon whose lobes cancel in the sum still has the plane of its first corner, and is drawn.
-        if ((fan || i == 1) && largest(area) > noise) return true;
-        sum = sum + area;
-    }
-    return !fan && largest(sum) > noise;
-}
-
 uint64_t hash_of(const Fill& fill) {
     const Texture& texture = fill.texture;
     const double values[] = {
@@ -129,7 +106,7 @@ uint64_t hash_of(const Fill& fill) {
     return hash;
 }
 
-class Parser : private Reader {
+class Parser : public Reader {
 public:
     Parser(const char* name, const char* text, size_t size, Description& out, Error& error)
         : Reader(name, text, size, error), text_(text), size_(size), out_(out) {}
@@ -148,24 +125,10 @@ private:
     bool material();
     bool texture();
     bool shadows();
-    bool sphere();
-    bool cone();
-    bool polygon() { return corners(Shape::polygon); }
-    bool patch() { return corners(Shape::patch); }
-    bool corners(Shape shape);
-    bool plane();
-    bool disc();
+    bool object(Kind kind, uint8_t entity);
     bool finish();
 
     bool expect_field(std::string_view word);
-    bool begin_object();
-    bool add(Object object);
-    bool drop(uint32_t pieces = 1) {
-        if (out_.dropped == 0 && pieces != 0) out_.dropped_line = entity_.at.line;
-        out_.dropped += pieces;
-        return true;
-    }
-    void warn_of_nonplanar(const Vec3d* corners, uint32_t n);
     bool use_fill(uint32_t& index);
 
     bool clamped(const char* what, const Range& range, double& value);
@@ -173,12 +136,15 @@ private:
     bool unknown_in_material();
     void keep_comment();
 
-    struct Entity {
+    // What is no object; objects are read by their hosts.
+    struct Statement {
         std::string_view word;
         bool (Parser::*read)();
     };
-    static const Entity entities[];
-    static const Entity* entity_of(std::string_view word);
+    static const Statement statements[];
+    template <class F> static void for_each_entity(F f);
+    static bool is_entity(std::string_view word);
+    bool entity();
 
     static constexpr uint32_t none = UINT32_MAX;
     static constexpr uint32_t chains = 512;
@@ -200,8 +166,8 @@ private:
 // The view and the lights.
 
 bool Parser::expect_field(std::string_view word) {
-    token_ = lexer_.next();
-    if (token_.kind != TokenKind::end && token_.text == word) return true;
+    token = lexer_.next();
+    if (token.kind != TokenKind::end && token.text == word) return true;
     char what[40];
     snprintf(what, sizeof what, "the field '%.*s' of 'v'", static_cast<int>(word.size()), word.data());
     return expected("", what);
@@ -215,11 +181,11 @@ bool Parser::view() {
     if (!expect_field("from") || !point("'from'", view.from)) return false;
     if (!expect_field("at") || !point("'at'", view.at)) return false;
     const Vec3d forward = view.at - view.from;
-    if (is_zero(forward)) return fail(vector_at_, "'at' is where 'from' is; expected another point");
+    if (is_zero(forward)) return fail(vector_at, "'at' is where 'from' is; expected another point");
     if (!expect_field("up") || !direction("'up'", view.up)) return false;
     const Vec3d side = cross(forward, view.up);
     if (dot(side, side) < 1e-18 * dot(forward, forward) * dot(view.up, view.up)) {
-        return fail(vector_at_, "'up' lies along the view from 'from' to 'at'; expected another direction");
+        return fail(vector_at, "'up' lies along the view from 'from' to 'at'; expected another direction");
     }
     if (!expect_field("angle") || !number("'angle'", angle_range, view.angle)) return false;
     if (!expect_field("hither") || !any_number("'hither'", "", hither)) return false;
@@ -237,7 +203,7 @@ bool Parser::light(bool sun) {
     if (out_.light_count == Limits::lights) {
         return fail(entity_.at, "too many lights; expected at most %u (limit 'lights')", Limits::lights);
     }
-    Light light;
+    LightSource light;
     light.sun = sun;
     bool ok = sun ? direction("the direction of a sun", light.at) : point("the place of a light", light.at);
     if (!ok) return false;
@@ -258,7 +224,7 @@ bool Parser::clamped(const char* what, const Range& range, double& value) {
     if (&range == &ior_range && value <= 0) value = 1;
     const double nearest = std::clamp(value, range.low, range.high);
     if (value != nearest && out_.clamped++ == 0) {
-        fail(token_.at, "warning: %s is %s, outside of %g to %g; %g is taken", what, Shown(token_.text).text, range.low,
+        fail(token.at, "warning: %s is %s, outside of %g to %g; %g is taken", what, Shown(token.text).text, range.low,
              range.high, nearest);
         std::swap(error_, out_.first_clamped);
     }
@@ -286,12 +252,12 @@ bool Parser::material() {
     fill_ = Fill{};
     fill_index_ = none;
     for (;;) {
-        token_ = lexer_.next();
+        token = lexer_.next();
         const MaterialWord* const end = std::end(material_words);
         const MaterialWord* const known = std::find_if(
-            material_words, end, [this](const MaterialWord& m) { return token_.text == m.word(); });
+            material_words, end, [this](const MaterialWord& m) { return token.text == m.word(); });
         if (known == end) {
-            if (token_.kind == TokenKind::word && entity_of(token_.text) == nullptr) return unknown_in_material();
+            if (token.kind == TokenKind::word && !is_entity(token.text)) return unknown_in_material();
             lexer_.unread();
             return true;
         }
@@ -306,12 +272,12 @@ bool Parser::material() {
 }
 
 bool Parser::texture() {
-    token_ = lexer_.next();
-    if (token_.text == "image" || token_.text == "globe") {
-        return fail(token_.at, "the image textures 'image' and 'globe' are not supported yet");
+    token = lexer_.next();
+    if (token.text == "image" || token.text == "globe") {
+        return fail(token.at, "the image textures 'image' and 'globe' are not supported yet");
     }
     for (const TextureWord& known : texture_words) {
-        if (token_.text != known.word) continue;
+        if (token.text != known.word) continue;
         Texture texture;
         texture.kind = known.kind;
         if (!colour("the colour of a texture", share_range, texture.colour)) return false;
@@ -321,10 +287,10 @@ bool Parser::texture() {
         fill_index_ = none;
         return true;
     }
-    Words words(token_.text);
+    Words words(token.text);
     for (const TextureWord& known : texture_words) words.add(known.word);
-    if (token_.kind == TokenKind::word && words.meant[0] != 0) {
-        return fail(token_.at, "unknown texture '%s'; %sexpected one of %s", Shown(token_.text).text, words.meant,
+    if (token.kind == TokenKind::word && words.meant[0] != 0) {
+        return fail(token.at, "unknown texture '%s'; %sexpected one of %s", Shown(token.text).text, words.meant,
                     words.text);
     }
     char what[200];
@@ -354,145 +320,78 @@ bool Parser::use_fill(uint32_t& index) {
 
 // Objects.
 
-bool Parser::begin_object() {
+bool Parser::object(Kind kind, uint8_t number) {
     if (view_line_ == 0) return fail(entity_.at, "an object before the view; expected 'v' first");
     if (object_line_ == 0) object_line_ = entity_.at.line;
-    return true;
-}
-
-bool Parser::add(Object object) {
+    Object object;
+    object.kind = kind;
+    object.entity = number;
+    object.line = entity_.at.line;
+    bool empty = false;
+    if (!with_host(kind, [&](auto host) { return host.entities[number].read(*this, out_, object, empty); })) return false;
+    if (empty) {
+        out_.dropped++;
+        if (object.count == 0) out_.empty.note(object.line, "a %s of radius 0, left out", name_of(object));
+        return true;
+    }
     if (out_.object_count == Limits::objects) {
         return fail(entity_.at, "too many objects; expected at most %u (limit 'objects')", Limits::objects);
     }
     if (!use_fill(object.fill)) return false;
-    object.line = entity_.at.line;
     out_.objects[out_.object_count++] = object;
-    return true;
-}
-
-bool Parser::sphere() {
-    Object object;
-    object.shape = Shape::sphere;
-    if (!begin_object() || !point("the centre of a sphere", object.a) ||
-        !radius("the radius of a sphere", object.ra)) {
-        return false;
-    }
-    return object.ra == 0 ? drop() : add(object);
-}
-
-bool Parser::cone() {
-    Object object;
-    object.shape = Shape::cone;
-    if (!begin_object() || !point("the base of a cone", object.a) ||
-        !radius("the base radius of a cone", object.ra) || !point("the apex of a cone", object.b)) {
-        return false;
-    }
-    if (is_zero(object.b - object.a)) {
-        return fail(vector_at_, "the apex of a cone is where its base is; expected an axis that is not zero");
-    }
-    if (!radius("the apex radius of a cone", object.rb)) return false;
-    return object.ra == 0 && object.rb == 0 ? drop() : add(object);
-}
-
-// What is drawn lies in the plane of the first corners.
-void Parser::warn_of_nonplanar(const Vec3d* corners, uint32_t n) {
-    if (n == 3) return;
-    const Vec3d normal = unit(across(corners, n));
-    Box box;
-    double off = 0;
-    for (uint32_t i = 0; i < n; ++i) {
-        box.add(corners[i]);
-        off = std::max(off, std::fabs(dot(corners[i] - corners[0], normal)));
-    }
-    const double size = length(box.high - box.low);
-    if (off > 0.01 * size) {
-        out_.nonplanar.note(entity_.at.line, "a polygon with a corner %.3g off its plane, %.3g %% of its size",
-                            off, 100 * off / size);
-    }
-}
-
-bool Parser::corners(Shape shape) {
-    const bool patch = shape == Shape::patch;
-    Object object;
-    object.shape = shape;
-    object.vertex = out_.vertex_count;
-    if (!begin_object() ||
-        !count(patch ? "the number of vertices of a patch" : "the number of vertices of a polygon", 3,
-               UINT32_MAX, "", object.count)) {
-        return false;
-    }
-    if (object.count > Limits::vertices - out_.vertex_count) {
-        return fail(token_.at,
-                    "%s vertices are too many after the %u so far; expected at most %u (limit 'vertices')",
-                    Shown(token_.text).text, out_.vertex_count, Limits::vertices);
-    }
-    const char* vertex = patch ? "a vertex of a patch" : "a vertex of a polygon";
-    for (uint32_t i = object.vertex; i != object.vertex + object.count; ++i) {
-        if (!point(vertex, out_.vertices[i])) return false;
-        if (patch && !direction("a normal of a patch", out_.normals[i])) return false;
-    }
-    if (!has_area(out_.vertices + object.vertex, object.count, patch)) return drop();
-    if (!add(object)) return false;
-    const Vec3d* v = out_.vertices + object.vertex;
-    if (patch)
-        for (uint32_t i = 1; i + 1 < object.count; ++i)
-            drop(largest(triangle_area(v[0], v[i], v[i + 1])) == 0);
-    else
-        warn_of_nonplanar(v, object.count);
     out_.vertex_count += object.count;
     return true;
-}
-
-bool Parser::plane() {
-    Object object;
-    object.shape = Shape::plane;
-    return begin_object() && point("the point of a plane", object.a) &&
-           direction("the normal of a plane", object.b) && add(object);
-}
-
-bool Parser::disc() {
-    Object object;
-    object.shape = Shape::disc;
-    if (!begin_object() || !point("the centre of a disc", object.a) ||
-        !direction("the normal of a disc", object.b) || !radius("the radius of a disc", object.ra)) {
-        return false;
-    }
-    return object.ra == 0 ? drop() : add(object);
 }
 
 // The whole.
 
 bool Parser::shadows() {
-    token_ = lexer_.next();
-    if (token_.text != "on" && token_.text != "off") return expected("", "'on' or 'off' after 'shadows'");
-    out_.shadows = token_.text == "on";
+    token = lexer_.next();
+    if (token.text != "on" && token.text != "off") return expected("", "'on' or 'off' after 'shadows'");
+    out_.shadows = token.text == "on";
     return true;
 }
 
-const Parser::Entity Parser::entities[] = {
+const Parser::Statement Parser::statements[] = {
     {"v", &Parser::view},
     {"b", &Parser::background},
     {"l", &Parser::lamp},
     {"f", &Parser::fill},
-    {"s", &Parser::sphere},
-    {"c", &Parser::cone},
-    {"p", &Parser::polygon},
-    {"pp", &Parser::patch},
     {"ambientlight", &Parser::ambient_light},
     {"sun", &Parser::sun},
     {"material", &Parser::material},
-    {"plane", &Parser::plane},
-    {"disc", &Parser::disc},
     {"texture", &Parser::texture},
     {"shadows", &Parser::shadows},
     {"far", &Parser::far},
 };
 
-const Parser::Entity* Parser::entity_of(std::string_view word) {
-    for (const Entity& e : entities) {
-        if (e.word[0] == word[0] && e.word == word) return &e;
+// Calls f(word) for the word of every entity.
+template <class F>
+void Parser::for_each_entity(F f) {
+    for (const Statement& s : statements) f(s.word);
+    for_each_host([&f](auto host, Kind) {
+        for (const Entity& e : host.entities) f(e.word);
+    });
+}
+
+bool Parser::is_entity(std::string_view word) {
+    bool found = false;
+    for_each_entity([&](std::string_view known) { found = found || word == known; });
+    return found;
+}
+
+bool Parser::entity() {
+    for (const Statement& s : statements) {
+        if (entity_.text == s.word) return (this->*s.read)();
     }
-    return nullptr;
+    bool found = false, good = true;
+    for_each_host([&](auto host, Kind kind) {
+        for (uint8_t i = 0; !found && i < std::size(host.entities); i++) {
+            found = entity_.text == host.entities[i].word;
+            if (found) good = object(kind, i);
+        }
+    });
+    return found ? good : unknown_entity();
 }
 
 bool Parser::unknown_entity() {
@@ -511,21 +410,21 @@ bool Parser::unknown_entity() {
         return fail(entity_.at, "expected an entity, found '%s', which stands in '%s'", shown.text, home);
     }
     Words words(entity_.text);
-    for (const Entity& e : entities) words.add(e.word);
+    for_each_entity([&words](std::string_view word) { words.add(word); });
     return fail(entity_.at, "unknown entity '%s'; %sexpected one of %s", shown.text, words.meant, words.text);
 }
 
 // The latest token is neither a word of `material` nor an entity, but nearer to the first, or to none.
 bool Parser::unknown_in_material() {
-    Words words(token_.text), others(token_.text);
+    Words words(token.text), others(token.text);
     for (const MaterialWord& known : material_words) words.add(known.word());
-    for (const Entity& e : entities) others.add(e.word);
+    for_each_entity([&others](std::string_view word) { others.add(word); });
     if (words.meant[0] == 0 && others.meant[0] != 0) {
-        entity_ = token_;
+        entity_ = token;
         return unknown_entity();
     }
-    return fail(token_.at, "unknown word '%s' in 'material'; %sexpected one of %s, or an entity",
-                Shown(token_.text).text, words.meant, words.text);
+    return fail(token.at, "unknown word '%s' in 'material'; %sexpected one of %s, or an entity",
+                Shown(token.text).text, words.meant, words.text);
 }
 
 void Parser::keep_comment() {
@@ -544,7 +443,7 @@ void Parser::keep_comment() {
 }
 
 bool Parser::finish() {
-    if (view_line_ == 0) return fail(token_.at, "the file ends without a view; expected 'v'");
+    if (view_line_ == 0) return fail(token.at, "the file ends without a view; expected 'v'");
     if (out_.light_count != 0) {
         const double white = 1 / std::sqrt(static_cast<double>(out_.light_count));
         for (uint32_t i = 0; i < out_.light_count; ++i) {
@@ -565,23 +464,19 @@ bool Parser::parse() {
     if (out_.lay_out(size_) > out_.room.size) return fail({}, "not enough memory");
     for (;;) {
         const Token before = entity_;
-        entity_ = token_ = lexer_.next();
-        switch (token_.kind) {
+        entity_ = token = lexer_.next();
+        switch (token.kind) {
         case TokenKind::end:
             return finish();
         case TokenKind::bad:
             return bad_byte();
         case TokenKind::number:
             if (before.text.empty()) return expected("", "an entity");
-            return fail(token_.at,
+            return fail(token.at,
                         "expected an entity, found '%s'; the '%s' in line %u is complete without it",
-                        Shown(token_.text).text, Shown(before.text).text, before.at.line);
+                        Shown(token.text).text, Shown(before.text).text, before.at.line);
         case TokenKind::word:
-            if (const Entity* known = entity_of(entity_.text)) {
-                if (!(this->*known->read)()) return false;
-            } else {
-                return unknown_entity();
-            }
+            if (!entity()) return false;
             break;
         }
     }
@@ -595,6 +490,8 @@ void reset(Description& out) {
     out.far = 0;
     out.object_count = out.vertex_count = out.fill_count = out.light_count = 0;
     out.dropped = out.clamped = 0;
+    out.empty.clear();
+    out.nonplanar.clear();
     out.first_clamped.text[0] = 0;
     out.comment[0] = 0;
 }

@@ -61,22 +61,22 @@ bool Reader::fail(Position at, const char* format, ...) {
 }
 
 bool Reader::bad_byte() {
-    return fail(token_.at,
+    return fail(token.at,
                 "found the byte 0x%02x; outside of comments a scene is printable ASCII and white space",
-                static_cast<unsigned>(static_cast<unsigned char>(token_.text[0])));
+                static_cast<unsigned>(static_cast<unsigned char>(token.text[0])));
 }
 
 bool Reader::expected(const char* part, const char* what) {
-    switch (token_.kind) {
+    switch (token.kind) {
     case TokenKind::bad:
         return bad_byte();
     case TokenKind::end:
-        return fail(token_.at, "the file ends where %s%s was expected", part, what);
+        return fail(token.at, "the file ends where %s%s was expected", part, what);
     case TokenKind::word:
     case TokenKind::number:
         break;
     }
-    return fail(token_.at, "expected %s%s, found '%s'", part, what, Shown(token_.text).text);
+    return fail(token.at, "expected %s%s, found '%s'", part, what, Shown(token.text).text);
 }
 
 bool Reader::not_a_number(const char* part, const char* what, NumberError error) {
@@ -85,7 +85,7 @@ bool Reader::not_a_number(const char* part, const char* what, NumberError error)
     case NumberError::none:
         return false;
     case NumberError::malformed:
-        why = token_.kind == TokenKind::word ? "not a number" : "not a number in plain decimal or e-notation";
+        why = token.kind == TokenKind::word ? "not a number" : "not a number in plain decimal or e-notation";
         break;
     case NumberError::not_finite:
         why = "not a finite number";
@@ -100,38 +100,38 @@ bool Reader::not_a_number(const char* part, const char* what, NumberError error)
         why = "negative";
         break;
     }
-    return fail(token_.at, "expected %s%s, found '%s', which is %s", part, what, Shown(token_.text).text, why);
+    return fail(token.at, "expected %s%s, found '%s', which is %s", part, what, Shown(token.text).text, why);
 }
 
 bool Reader::any_number(const char* what, const char* part, double& value) {
-    token_ = lexer_.next();
-    if (token_.kind == TokenKind::end || token_.kind == TokenKind::bad) return expected(part, what);
-    const NumberError error = read_number(token_.text, value);
+    token = lexer_.next();
+    if (token.kind == TokenKind::end || token.kind == TokenKind::bad) return expected(part, what);
+    const NumberError error = read_number(token.text, value);
     return error == NumberError::none || not_a_number(part, what, error);
 }
 
 bool Reader::number(const char* what, const char* part, const Range& range, double& value) {
     if (!any_number(what, part, value)) return false;
     if (value >= range.low && value <= range.high) return true;
-    return fail(token_.at, "%s%s is %s; expected %s", part, what, Shown(token_.text).text, range.text);
+    return fail(token.at, "%s%s is %s; expected %s", part, what, Shown(token.text).text, range.text);
 }
 
 bool Reader::ior(const char* what, double& value) {
     if (!any_number(what, "", value)) return false;
     if (value <= 0) value = 1;
     if (value >= ior_range.low && value <= ior_range.high) return true;
-    return fail(token_.at, "%s is %s; expected %s", what, Shown(token_.text).text, ior_range.text);
+    return fail(token.at, "%s is %s; expected %s", what, Shown(token.text).text, ior_range.text);
 }
 
 bool Reader::count(const char* what, uint32_t low, uint32_t high, const char* limit, uint32_t& value) {
-    token_ = lexer_.next();
-    if (token_.kind == TokenKind::end || token_.kind == TokenKind::bad) return expected("", what);
-    const NumberError error = read_count(token_.text, value);
+    token = lexer_.next();
+    if (token.kind == TokenKind::end || token.kind == TokenKind::bad) return expected("", what);
+    const NumberError error = read_count(token.text, value);
     if (error != NumberError::none) return not_a_number("", what, error);
-    const Shown shown(token_.text);
-    if (value < low) return fail(token_.at, "%s is %s; expected at least %u", what, shown.text, low);
+    const Shown shown(token.text);
+    if (value < low) return fail(token.at, "%s is %s; expected at least %u", what, shown.text, low);
     if (value > high) {
-        return fail(token_.at, "%s is %s; expected at most %u (limit '%s')", what, shown.text, high, limit);
+        return fail(token.at, "%s is %s; expected at most %u (limit '%s')", what, shown.text, high, limit);
     }
     return true;
 }
@@ -145,13 +145,13 @@ bool Reader::radius(const char* what, double& value) {
 
 bool Reader::point(const char* what, Vec3d& value) {
     if (!number(what, "x of ", length_range, value.x)) return false;
-    vector_at_ = token_.at;
+    vector_at = token.at;
     return number(what, "y of ", length_range, value.y) && number(what, "z of ", length_range, value.z);
 }
 
 bool Reader::direction(const char* what, Vec3d& value) {
     if (!point(what, value)) return false;
-    if (is_zero(value)) return fail(vector_at_, "%s is zero; expected a vector with a direction", what);
+    if (is_zero(value)) return fail(vector_at, "%s is zero; expected a vector with a direction", what);
     return true;
 }
 

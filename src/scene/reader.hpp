@@ -43,7 +43,7 @@ struct ShownName {
 // Each function reads what its name says and returns false when it has written the error. Messages name what
 // was read by `part` and `what`, such as "x of " and "the centre of a sphere".
 class Reader {
-protected:
+public:
     Reader(const char* name, const char* text, size_t size, Error& error)
         : lexer_(text, size), error_(error), name_(name) {}
 
@@ -67,8 +67,8 @@ protected:
 
     Lexer lexer_;
     Error& error_;
-    Token token_;        // the latest
-    Position vector_at_; // where the latest point or direction began
+    Token token;        // the latest
+    Position vector_at; // where the latest point or direction began
 
 private:
     bool number(const char* what, const char* part, const Range& range, double& value);

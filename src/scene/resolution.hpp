@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "convert.hpp"
-#include "geometry.hpp"
+#include "shapes.hpp"
 
 namespace qray::scene {
 
@@ -21,8 +21,6 @@ struct Frame {
     double pushed = 0; // how far that is from where the text has it
     Vec3d point(const Vec3d& p) const { return (p - origin) * scale; }
 };
-
-constexpr const char* shape_names[] = {"sphere", "cone", "polygon", "patch", "plane", "disc"};
 
 template <class N>
 struct Steps {
@@ -84,14 +82,15 @@ public:
                 const double most = fmin(need, share() * widest(o)), side = text_off < 0 ? -1 : 1;
                 if (round == 0)
                     horizon(o, n, text_off, fmax(most, text_off));
-                if (fabs(text_off) <= noise(o, n, d.view.from) || !lies_on(d, o, part, at, off, way, now) || !(length(way) > 0)
+                if (fabs(text_off) <= noise(o, n, d.view.from) || !lies_on(d, o, part, at, off, way, now)
+                    || !(length(way) > 0)
                     || side * now > 0.99 * most)
                     return true;
                 at = at + way * (side * most - now);
                 moved = true;
                 if (round == 7)
                     lost.note(o.line, "the eye, %.3g off a %s, falls onto it where steps are %.3g", fabs(text_off),
-                              name(o), step());
+                              name_of(o), step());
                 return true;
             });
             if (!moved)
@@ -108,9 +107,9 @@ public:
             return;
         const double moved = sqrt(2 * seen_from / r) - sqrt(2 * off / r)
             + Steps<N>::rough * step() / sqrt(2 * seen_from * r);
-        if (moved > (o.shape == Shape::cone && o.ra != o.rb ? Steps<N>::cone_horizon : Steps<N>::horizon) * 2 * half)
+        if (moved > (o.kind == Kind::cone && o.ra != o.rb ? Steps<N>::cone_horizon : Steps<N>::horizon) * 2 * half)
             lost.note(o.line, "the eye, %.3g off a %s, sees its horizon from %.3g off, where steps are %.3g", off,
-                      name(o), seen_from, step());
+                      name_of(o), seen_from, step());
     }
 
     // The first surface that the eye lies on: its number, 0 at least; or -1.
@@ -132,7 +131,7 @@ public:
     // Does an object in view span steps enough?
     void span(const Object& o)
     {
-        if (o.shape == Shape::plane)
+        if (is_endless(o))
             return;
         Box box;
         add_object(box, d, o);
@@ -145,31 +144,37 @@ public:
         if (picture >= Steps<N>::picture * error)
             return;
         if (2 * r < picture)
-            lost.note(o.line, "a %s spans only %.3g steps of %.3g", name(o), 2 * r / error, error);
+            lost.note(o.line, "a %s spans only %.3g steps of %.3g", name_of(o), 2 * r / error, error);
         else
-            lost.note(o.line, "at a %s the picture spans only %.3g steps of %.3g", name(o), picture / error, error);
+            lost.note(o.line, "at a %s the picture spans only %.3g steps of %.3g", name_of(o), picture / error, error);
     }
 
-    // Which surfaces lie so close that what is between them is lost? `order` has room for all objects.
-    void pairs(uint32_t* order)
+    // Which surfaces lie so close that what is between them is lost? `sorted` has room for all objects.
+    void pairs(SortedObject* sorted)
     {
-        static constexpr Shape kinds[] = {Shape::sphere, Shape::cone, Shape::plane};
-        for (const Shape kind : kinds) {
+        static constexpr Kind kinds[] = {Kind::sphere, Kind::cone, flat};
+        const double near = Steps<N>::clear_apart * step();
+        for (const Kind kind : kinds) {
             uint32_t count = 0;
             for (uint32_t i = 0; i < d.object_count; i++)
-                if (kind_of(d.objects[i].shape) == kind)
-                    order[count++] = i;
-            std::sort(order, order + count, [this](uint32_t a, uint32_t b) {
-                const Vec3d u = key(d.objects[a]), v = key(d.objects[b]);
-                return u.x != v.x ? u.x < v.x : u.y != v.y ? u.y < v.y : u.z != v.z ? u.z < v.z : a < b;
+                if (kind_of(d.objects[i]) == kind) {
+                    const Vec3d k = key(d.objects[i]);
+                    sorted[count++] = {k.x, k.y, k.z, i};
+                }
+            std::sort(sorted, sorted + count, [](const SortedObject& a, const SortedObject& b) {
+                return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z != b.z ? a.z < b.z : a.index < b.index;
             });
             for (uint32_t i = 0; i < count; i++)
                 for (uint32_t k = i + 1; k < count && k < i + neighbours; k++) {
-                    const uint32_t first = order[i] < order[k] ? order[i] : order[k];
-                    const uint32_t second = order[i] < order[k] ? order[k] : order[i];
-                    if (key(d.objects[order[k]]).x - key(d.objects[order[i]]).x > Steps<N>::clear_apart * step())
+                    const SortedObject &a = sorted[i], &b = sorted[k];
+                    if (b.x - a.x > near)
                         break;
-                    pair(d.objects[first], d.objects[second]);
+                    // The tiles of one floor are told apart here: there may be many.
+                    if (fmax(fabs(b.y - a.y), fabs(b.z - a.z)) > near
+                        || (kind == flat && b.x - a.x <= 0x1p-52 * b.x))
+                        continue;
+                    pair(d.objects[a.index < b.index ? a.index : b.index],
+                         d.objects[a.index < b.index ? b.index : a.index]);
                 }
         }
     }
@@ -193,7 +198,6 @@ private:
     }
 
     double half_diagonal() const { return atan(half * sqrt(1 + pow(double(d.view.width) / d.view.height, 2))); }
-    static const char* name(const Object& o) { return shape_names[static_cast<int>(o.shape)]; }
 
     // Until it returns false: for each surface no farther than `off` from the text's eye.
     template <class Visit>
@@ -236,20 +240,22 @@ private:
         }
     }
 
-    static Shape kind_of(Shape shape)
+    // Planes, discs and polygons alike.
+    static constexpr Kind flat = Kind::disc;
+    static Kind kind_of(const Object& o)
     {
-        return shape == Shape::polygon || shape == Shape::disc ? Shape::plane : shape;
+        return o.kind == Kind::polygon ? flat : o.kind;
     }
 
     // What is flat: its plane, and how to tell what lies on it.
     Vec3d normal(const Object& o) const
     {
-        return o.shape == Shape::polygon ? unit(across(d.vertices + o.vertex, o.count)) : unit(o.b);
+        return o.kind == Kind::polygon ? unit(across(d.vertices + o.vertex, o.count)) : unit(o.b);
     }
     Vec3d place(const Object& o) const { return o.count != 0 ? d.vertices[o.vertex] : o.a; }
     Vec3d middle(const Object& o) const
     {
-        if (o.shape != Shape::polygon)
+        if (o.kind != Kind::polygon)
             return o.a;
         Vec3d sum;
         for (uint32_t i = 0; i < o.count; i++)
@@ -258,9 +264,9 @@ private:
     }
     bool covers(const Object& o, const Vec3d& n, const Vec3d& p) const
     {
-        if (o.shape == Shape::plane)
+        if (is_endless(o))
             return true;
-        if (o.shape == Shape::disc)
+        if (o.kind == Kind::disc)
             return length(p - o.a) < o.ra;
         const Vec3d u = unit_across(n), w = cross(n, u);
         bool inside = false;
@@ -276,11 +282,11 @@ private:
     // What is the same in two objects that fall together comes first.
     Vec3d key(const Object& o) const
     {
-        if (o.shape == Shape::sphere)
+        if (o.kind == Kind::sphere)
             return o.a;
-        if (o.shape == Shape::cone)
+        if (o.kind == Kind::cone)
             return (o.a + o.b) * 0.5;
-        return {fabs(dot(place(o) - frame.centre, normal(o))), 0, 0};
+        return {fabs(dot(place(o), normal(o))), 0, 0};
     }
 
     static bool clear(const Fill& f)
@@ -291,9 +297,9 @@ private:
     // How far apart are they, at most? HUGE_VAL where they have little in common.
     double apart(const Object& a, const Object& b) const
     {
-        if (a.shape == Shape::sphere)
+        if (a.kind == Kind::sphere)
             return fabs(a.ra - b.ra) + length(a.a - b.a);
-        if (a.shape == Shape::cone)
+        if (a.kind == Kind::cone)
             return fmin(fmax(fabs(a.ra - b.ra) + length(a.a - b.a), fabs(a.rb - b.rb) + length(a.b - b.b)),
                         fmax(fabs(a.ra - b.rb) + length(a.a - b.b), fabs(a.rb - b.ra) + length(a.b - b.a)));
         const Vec3d n = normal(a);
@@ -307,7 +313,7 @@ private:
     {
         const auto length = [this](double v) { return Convert<N>::length(v * frame.scale); };
         const Point<N> p = Convert<N>::point(frame.point(place(a))), q = Convert<N>::point(frame.point(place(b)));
-        if (kind_of(a.shape) == Shape::plane) {
+        if (kind_of(a) == flat) {
             const Vec3d n = normal(a);
             return (fabs(n.x) == 1 && p.x == q.x) || (fabs(n.y) == 1 && p.y == q.y) || (fabs(n.z) == 1 && p.z == q.z);
         }
@@ -327,11 +333,11 @@ private:
         if (f.transmit == 0 && (clear(g) || in_front(a, b)) && same(a, b))
             return;
         lost.note(b.line, "a %s falls together with another surface, that of line %u, %.3g off, where steps are %.3g",
-                  name(b), a.line, off, step());
+                  name_of(b), a.line, off, step());
     }
     bool in_front(const Object& a, const Object& b) const
     {
-        if (kind_of(a.shape) != Shape::plane)
+        if (kind_of(a) != flat)
             return a.ra + a.rb > b.ra + b.rb; // the eye is outside
         const Vec3d n = normal(a);
         return dot(n, frame.eye - place(a)) * dot(n, place(a) - place(b)) > 0;

@@ -7,8 +7,17 @@ namespace qray {
 
 template <class N>
 struct Brick {
+    static constexpr bool has_axis = false;
+
     Vec<typename N::Unit> colour; // N, the mortar
     Lattice<N> lattice;           // y counts courses, two to a cell; offsets hold epsilon
+
+    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
+    template <class Make>
+    static Brick made(const Make& make)
+    {
+        return {make.colour(), make.lattice(true, 2)};
+    }
 
     constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
     {

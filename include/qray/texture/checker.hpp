@@ -7,8 +7,17 @@ namespace qray {
 
 template <class N>
 struct Checker {
+    static constexpr bool has_axis = false;
+
     Vec<typename N::Unit> colour; // N
     Lattice<N> lattice;           // offsets hold epsilon
+
+    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
+    template <class Make>
+    static Checker made(const Make& make)
+    {
+        return {make.colour(), make.lattice(true)};
+    }
 
     constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
     {

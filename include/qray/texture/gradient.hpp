@@ -7,8 +7,17 @@ namespace qray {
 
 template <class N>
 struct Gradient {
+    static constexpr bool has_axis = true;
+
     Vec<typename N::Unit> colour; // N
     LatticeAxis<N> axis;
+
+    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
+    template <class Make>
+    static Gradient made(const Make& make)
+    {
+        return {make.colour(), make.along_axis(false, false)};
+    }
 
     constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
     {

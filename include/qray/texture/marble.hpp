@@ -15,9 +15,18 @@ constexpr Cell<N> twice(const Cell<N>& c)
 
 template <class N>
 struct Marble {
+    static constexpr bool has_axis = true;
+
     Vec<typename N::Unit> colour; // N
     Lattice<N> lattice;
     LatticeAxis<N> axis;
+
+    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
+    template <class Make>
+    static Marble made(const Make& make)
+    {
+        return {make.colour(), make.lattice(false), make.along_axis(false, true)};
+    }
 
     constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
     {

@@ -7,8 +7,17 @@ namespace qray {
 
 template <class N>
 struct Noise {
+    static constexpr bool has_axis = false;
+
     Vec<typename N::Unit> colour; // N
     Lattice<N> lattice;
+
+    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
+    template <class Make>
+    static Noise made(const Make& make)
+    {
+        return {make.colour(), make.lattice(false)};
+    }
 
     constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
     {

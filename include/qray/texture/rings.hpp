@@ -7,8 +7,17 @@ namespace qray {
 
 template <class N>
 struct Rings {
+    static constexpr bool has_axis = false;
+
     Vec<typename N::Unit> colour; // N
     LatticeAxis<N> x, z;
+
+    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
+    template <class Make>
+    static Rings made(const Make& make)
+    {
+        return {make.colour(), make.along_x(), make.along_z()};
+    }
 
     constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
     {

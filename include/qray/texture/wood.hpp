@@ -7,9 +7,18 @@ namespace qray {
 
 template <class N>
 struct Wood {
+    static constexpr bool has_axis = true;
+
     Vec<typename N::Unit> colour; // N
     Lattice<N> lattice;
     LatticeAxis<N> e1, e2; // across the grain
+
+    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
+    template <class Make>
+    static Wood made(const Make& make)
+    {
+        return {make.colour(), make.lattice(false), make.across_axis(0), make.across_axis(1)};
+    }
 
     constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
     {

@@ -1,0 +1,114 @@
+// What figures with corners share: polygons and patches.
+#pragma once
+
+#include "host.hpp"
+
+namespace qray::scene {
+
+// The corners behind those that the scene has already, each with a normal or without.
+inline bool read_corners(Reader& r, Description& d, Object& o, bool with_normals)
+{
+    o.vertex = d.vertex_count;
+    if (!r.count(with_normals ? "the number of vertices of a patch" : "the number of vertices of a polygon", 3, UINT32_MAX,
+                 "", o.count))
+        return false;
+    if (o.count > Limits::vertices - d.vertex_count)
+        return r.fail(r.token.at,
+                      "%s vertices are too many after the %u so far; expected at most %u (limit 'vertices')",
+                      Shown(r.token.text).text, d.vertex_count, Limits::vertices);
+    for (uint32_t i = o.vertex; i != o.vertex + o.count; i++)
+        if (!r.point(with_normals ? "a vertex of a patch" : "a vertex of a polygon", d.vertices[i])
+            || (with_normals && !r.direction("a normal of a patch", d.normals[i])))
+            return false;
+    return true;
+}
+
+// Whether n >= 3 corners enclose something. What rounding each coordinate to a double could make of an area
+// of 0 (up to 2^-50 times the largest coordinate times the extent, in each product) is none.
+inline bool has_area(const Vec3d* corners, uint32_t n, bool fan)
+{
+    double coordinate = largest(corners[0]), extent = 0;
+    for (uint32_t i = 1; i < n; i++) {
+        coordinate = fmax(coordinate, largest(corners[i]));
+        extent = fmax(extent, largest(corners[i] - corners[0]));
+    }
+    if (extent < smallest_length)
+        return false;
+    const double noise = 0x1p-50 * extent * coordinate;
+    Vec3d sum;
+    for (uint32_t i = 1; i + 1 < n; i++) {
+        const Vec3d area = cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+        // A polygon whose lobes cancel in the sum still has the plane of its first corner, and is drawn.
+        if ((fan || i == 1) && largest(area) > noise)
+            return true;
+        sum = sum + area;
+    }
+    return !fan && largest(sum) > noise;
+}
+
+// Is a corner off the plane of the first three by more than a hundredth of the polygon's size?
+inline void warn_of_nonplanar(Description& d, const Object& o)
+{
+    if (o.count == 3)
+        return;
+    const Vec3d* corners = d.vertices + o.vertex;
+    const Vec3d normal = unit(across(corners, o.count));
+    Box box;
+    double off = 0;
+    for (uint32_t i = 0; i < o.count; i++) {
+        box.add(corners[i]);
+        off = fmax(off, fabs(dot(corners[i] - corners[0], normal)));
+    }
+    const double size = length(box.high - box.low);
+    if (off > 0.01 * size)
+        d.nonplanar.note(o.line, "a polygon with a corner %.3g off its plane, %.3g %% of its size", off, 100 * off / size);
+}
+
+inline void add_corners(Box& box, const Description& d, const Object& o)
+{
+    for (uint32_t i = 0; i < o.count; i++)
+        box.add(d.vertices[o.vertex + i]);
+}
+
+// A figure is taken for what its box holds of its plane: a ray from there meets nothing of it.
+inline bool lies_in_figure(const Vec3d* corners, uint32_t count, const Vec3d& p, double off, Vec3d& outward, double& above)
+{
+    Box box;
+    for (uint32_t i = 0; i < count; i++)
+        box.add(corners[i], {off, off, off});
+    if (!box.holds(p)) // of a large mesh, nearly all
+        return false;
+    const Vec3d g = across(corners, count);
+    return length(g) > 0 && lies_in_plane(corners[0], unit(g), p, off, outward, above);
+}
+
+// The ball around the middle of the box of corner(0) to corner(count - 1).
+template <class N>
+struct CornerBall {
+    Point<N> middle;
+    typename N::Length radius;
+};
+template <class B, class Corner>
+CornerBall<typename B::Number> corner_ball(const B& b, uint32_t count, Corner corner)
+{
+    Box box;
+    for (uint32_t i = 0; i < count; i++)
+        box.add(corner(i));
+    const Vec3d centre = (box.low + box.high) * 0.5;
+    double far = 0;
+    for (uint32_t i = 0; i < count; i++)
+        far = fmax(far, length(corner(i) - centre));
+    return {b.point(centre), b.bound(far)};
+}
+
+// Do rounded corners not all fall on one point?
+template <class P>
+bool spans(const P* corners, uint32_t count)
+{
+    for (uint32_t i = 1; i < count; i++)
+        if (!(corners[i] == corners[0]))
+            return true;
+    return false;
+}
+
+} // namespace qray::scene

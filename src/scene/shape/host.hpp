@@ -1,0 +1,65 @@
+// What the desktop knows of a shape, beside its header in include/qray/shape: how the text says it, how far it reaches, what
+// the tracer's structure is made of. Host<Shape> stands in the header of the shape's name in this folder:
+//   entities        the words that say one in a scene, each with a function that reads what follows
+//   fields          what a compiled scene says of its table's columns
+//   example         an object of about unit size at the origin, and a place on it, for tests
+//   extent          adds an object to a box
+//   lies_on         is a point no farther than `off` from an object (of several surfaces, the part-th)? Then also the outward
+//                   normal there, 0 at an apex, and how far outward the point is
+//   convert         pushes the tracer's structures of an object, by a Builder
+//   bound           a ball around the tracer's structure, for the tree
+//   random          a random object as text, for tests
+// and, where it differs from HostOfShape's, surfaces_of, widest, range and is_endless.
+#pragma once
+
+#include "../convert.hpp"
+#include "../geometry.hpp"
+#include "../reader.hpp"
+
+namespace qray::scene {
+
+template <template <class> class Shape>
+struct Host;
+
+struct Entity {
+    const char* word;
+    const char* name;   // in messages: a NAME
+    const char* plural; // in statistics
+    // Reads and checks; false where it has written the error. What has no extent is `empty`, and left out.
+    bool (*read)(Reader&, Description&, Object&, bool& empty);
+};
+
+struct HostOfShape {
+    // How many surfaces an object has, each with a place of its own.
+    static uint32_t surfaces_of(const Object&) { return 1; }
+    // The greatest radius of what is curved.
+    static double widest(const Object&) { return HUGE_VAL; }
+    // How large the structure is, in units of what it may be in the moved and scaled scene; where coordinates say, 0.
+    template <class N>
+    static double range(const Object&)
+    {
+        return 0;
+    }
+    // Does it reach as far as the scene allows?
+    static bool is_endless(const Object&) { return false; }
+};
+
+// The ball of a shape in double, in the moved and scaled scene.
+struct Ball {
+    double x, y, z, radius;
+};
+template <class L>
+double value(L v)
+{
+    if constexpr (requires { v.raw; })
+        return ldexp(v.raw, -L::frac);
+    else
+        return static_cast<double>(v);
+}
+template <class L>
+Ball ball_around(const Vec<L>& centre, double radius)
+{
+    return {value(centre.x), value(centre.y), value(centre.z), radius};
+}
+
+} // namespace qray::scene

@@ -1,0 +1,75 @@
+// pp n, then n corners with their normals X Y Z NX NY NZ: a fan of n - 2 triangles, each a surface of its own
+#pragma once
+
+#include "corners.hpp"
+
+namespace qray::scene {
+
+template <>
+struct Host<Patch> : HostOfShape {
+    static bool read(Reader& r, Description& d, Object& o, bool& empty)
+    {
+        if (!read_corners(r, d, o, true))
+            return false;
+        const Vec3d* v = d.vertices + o.vertex;
+        empty = !has_area(v, o.count, true);
+        for (uint32_t i = 1; !empty && i + 1 < o.count; i++)
+            d.dropped += largest(triangle_area(v[0], v[i], v[i + 1])) == 0;
+        return true;
+    }
+    static constexpr Entity entities[] = {{"pp", "patch", "patches", read}};
+    static constexpr const char* fields = "normal; middle and radius of a ball around it; vertices: first, second; tag";
+    static constexpr const char* example[] = {"pp 3  1 1 0 0 0 1  2 1 0 1 0 1  1 2 0 0 1 1", "1 1 0"};
+
+    static uint32_t surfaces_of(const Object& o) { return o.count - 2; }
+    static void extent(Box& box, const Description& d, const Object& o) { add_corners(box, d, o); }
+    static bool lies_on(const Description& d, const Object& o, uint32_t part, const Vec3d& p, double off, Vec3d& outward,
+                        double& above)
+    {
+        const Vec3d* v = d.vertices + o.vertex;
+        const Vec3d corners[3] = {v[0], v[part + 1], v[part + 2]};
+        return lies_in_figure(corners, 3, p, off, outward, above);
+    }
+
+    template <class B>
+    static void convert(B& b, const Object& o, uint32_t place)
+    {
+        using N = typename B::Number;
+        // Blended as they are given: only their proportion within the patch counts.
+        double longest = 0;
+        for (uint32_t i = 0; i < o.count; i++)
+            longest = fmax(longest, length(b.d.normals[o.vertex + i]));
+        const uint32_t first = b.push_corners(o);
+        for (uint32_t i = 0; i < o.count; i++)
+            b.s.normals.push() = Convert<N>::direction(b.d.normals[o.vertex + i] * (1 / longest));
+        for (uint32_t i = 1; i + 1 < o.count; i++, place++) {
+            const Vec3d* v = b.d.vertices + o.vertex;
+            const Vec3d corners[3] = {v[0], v[i], v[i + 1]};
+            const Vec3d g = triangle_area(corners[0], corners[1], corners[2]);
+            const Point<N>* at = b.s.vertices.data;
+            const Point<N> rounded[3] = {at[first], at[first + i], at[first + i + 1]};
+            if (!(length(g) > 0)) // the parser has counted it
+                continue;
+            if (!spans(rounded, 3)) {
+                b.leave_out(o);
+                continue;
+            }
+            const auto around = corner_ball(b, 3, [&corners](uint32_t k) { return corners[k]; });
+            b.s.patches.push() = {Convert<N>::direction(unit(g)), around.middle, around.radius, first, first + i,
+                                  make_tag(place, o.fill)};
+        }
+    }
+    template <class N>
+    static Ball bound(const Patch<N>& s)
+    {
+        return ball_around(s.middle, value(s.bound));
+    }
+
+    template <class R>
+    static auto random(R& r)
+    {
+        return r.figure("pp", 3 + r.below(3), true);
+    }
+};
+
+} // namespace qray::scene

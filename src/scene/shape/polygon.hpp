@@ -1,0 +1,59 @@
+// p n, then n corners X Y Z
+#pragma once
+
+#include "corners.hpp"
+
+namespace qray::scene {
+
+template <>
+struct Host<Polygon> : HostOfShape {
+    static bool read(Reader& r, Description& d, Object& o, bool& empty)
+    {
+        if (!read_corners(r, d, o, false))
+            return false;
+        const Vec3d* v = d.vertices + o.vertex;
+        empty = !has_area(v, o.count, false);
+        if (!empty)
+            warn_of_nonplanar(d, o);
+        return true;
+    }
+    static constexpr Entity entities[] = {{"p", "polygon", "polygons", read}};
+    static constexpr const char* fields = "normal; middle and radius of a ball around it; first vertex, count; tag";
+    static constexpr const char* example[] = {"p 4  -1 -1 0  0 -1 0  0 0 0  -1 0 0.1", "-1 -1 0"};
+
+    static void extent(Box& box, const Description& d, const Object& o) { add_corners(box, d, o); }
+    static bool lies_on(const Description& d, const Object& o, uint32_t, const Vec3d& p, double off, Vec3d& outward,
+                        double& above)
+    {
+        return lies_in_figure(d.vertices + o.vertex, o.count, p, off, outward, above);
+    }
+
+    template <class B>
+    static void convert(B& b, const Object& o, uint32_t place)
+    {
+        using N = typename B::Number;
+        const Vec3d* v = b.d.vertices + o.vertex;
+        const Vec3d g = across(v, o.count);
+        const uint32_t first = b.push_corners(o);
+        if (!(length(g) > 0) || !spans(b.s.vertices.data + first, o.count)) {
+            b.s.vertices.count = first;
+            return b.leave_out(o);
+        }
+        const auto around = corner_ball(b, o.count, [v](uint32_t i) { return v[i]; });
+        b.s.polygons.push() = {Convert<N>::direction(unit(g)), around.middle, around.radius, first, o.count,
+                               make_tag(place, o.fill)};
+    }
+    template <class N>
+    static Ball bound(const Polygon<N>& s)
+    {
+        return ball_around(s.middle, value(s.bound));
+    }
+
+    template <class R>
+    static auto random(R& r)
+    {
+        return r.figure("p", 3 + r.below(8), false);
+    }
+};
+
+} // namespace qray::scene

@@ -1,0 +1,61 @@
+// s X Y Z r
+#pragma once
+
+#include "host.hpp"
+
+namespace qray::scene {
+
+template <>
+struct Host<Sphere> : HostOfShape {
+    static bool read(Reader& r, Description&, Object& o, bool& empty)
+    {
+        if (!r.point("the centre of a sphere", o.a) || !r.radius("the radius of a sphere", o.ra))
+            return false;
+        empty = o.ra == 0;
+        return true;
+    }
+    static constexpr Entity entities[] = {{"s", "sphere", "spheres", read}};
+    static constexpr const char* fields =
+        "centre; radius * 2^fine and its inverse; fine; tag; centre's rounding * 2^fine";
+    static constexpr const char* example[] = {"s 0 0 0 0.5", "0 0 0.5"};
+
+    static void extent(Box& box, const Description&, const Object& o) { box.add(o.a, {o.ra, o.ra, o.ra}); }
+    static double widest(const Object& o) { return o.ra; }
+    static bool lies_on(const Description&, const Object& o, uint32_t, const Vec3d& p, double off, Vec3d& outward,
+                        double& above)
+    {
+        const double distance = length(p - o.a);
+        above = distance - o.ra;
+        if (!(distance > 0) || fabs(above) > off)
+            return false;
+        outward = unit(p - o.a);
+        return true;
+    }
+
+    static constexpr double world = 31.9; // what a block-scaled radius may be: see q16.hpp
+
+    template <class B>
+    static void convert(B& b, const Object& o, uint32_t place)
+    {
+        using N = typename B::Number;
+        if (b.too_small_to_leave(b.length(o.ra)))
+            return b.leave_out(o);
+        const int fine = b.fine_for(o.ra, world);
+        const auto r = b.length(ldexp(o.ra, fine));
+        b.s.spheres.push() = {b.point(o.a), r, Convert<N>::inverse(r), fine, make_tag(place, o.fill),
+                              Convert<N>::rounded(b.frame.point(o.a), fine)};
+    }
+    template <class N>
+    static Ball bound(const Sphere<N>& s)
+    {
+        return ball_around(s.centre, ldexp(value(s.radius), -s.fine));
+    }
+
+    template <class R>
+    static auto random(R& r)
+    {
+        return "s " + r.point() + " " + r.radius();
+    }
+};
+
+} // namespace qray::scene
