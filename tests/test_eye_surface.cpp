@@ -210,7 +210,8 @@ TYPED_TEST(EyeSurfaces, NextToATiltedPlaneIsOnItsSide)
     for (int i = 0; i < 200; i++) {
         const Vec3 n = random.direction(), u = unit(cross(n, random.direction())), at = random.point(2);
         const double side = i % 2 != 0 ? 1 : -1;
-        const Vec3 eye = at + u * 3 + n * (side * 1e-9), down = unit(u + n * (-0.2 * side)), up = unit(u + n * (0.2 * side));
+        const Vec3 eye = at + u * 3 + n * (side * 1e-9);
+        const Vec3 down = unit(u + n * (-0.2 * side)), up = unit(u + n * (0.2 * side));
         for (const Vec3& d : {down, up}) {
             if (std::fabs(d.y) > 0.99)
                 continue;

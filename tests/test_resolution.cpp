@@ -15,7 +15,9 @@ TYPED_TEST_SUITE(ResolutionTest, NumberSystems, SystemNames);
 
 // In a world of +-62: of coordinates near 62, in floating point.
 template <class N>
-constexpr double step = NarrowFixed<N> ? 0x1p-10 : N::is_fixed ? 0x1p-24 : sizeof(typename N::Length) == 4 ? 0x1p-18 : 0x1p-47;
+constexpr double step = NarrowFixed<N> ? 0x1p-10
+    : N::is_fixed                     ? 0x1p-24
+    : sizeof(typename N::Length) == 4 ? 0x1p-18 : 0x1p-47;
 
 std::string number(double v)
 {
@@ -62,7 +64,8 @@ TYPED_TEST(ResolutionTest, SurfacesThatFallTogether)
     EXPECT_EQ(named<N>(shell(1)), 0u);
     EXPECT_EQ(named<N>(decal(0)), 0u);
     // Tiles of a floor, and balls that touch.
-    EXPECT_EQ(named<N>(view + "p 4 0 0 0 1 0 0 1 0 1 0 0 1\n" + red + "p 4 1 0 0 2 0 0 2 0 1 1 0 1\n s -1 1 0 1 s 1 1 0 1"), 0u);
+    EXPECT_EQ(named<N>(view + "p 4 0 0 0 1 0 0 1 0 1 0 0 1\n" + red
+                       + "p 4 1 0 0 2 0 0 2 0 1 1 0 1\n s -1 1 0 1 s 1 1 0 1"), 0u);
 }
 
 TYPED_TEST(ResolutionTest, WhatSpansFewSteps)
@@ -87,7 +90,8 @@ TYPED_TEST(ResolutionTest, EyeThatFallsOntoASurface)
 {
     using N = TypeParam;
     const double h = step<N> / 4;
-    const std::string eye = "v from 0 " + number(h) + " 0 at 5 0 0 up 0 1 0 angle 30 hither 0 resolution 160 120 far 60\n";
+    const std::string eye =
+        "v from 0 " + number(h) + " 0 at 5 0 0 up 0 1 0 angle 30 hither 0 resolution 160 120 far 60\n";
     ASSERT_TRUE(loaded<N>(eye + "plane 0 0 0 0 1 0\nplane 0 " + number(2 * h) + " 0 0 1 0\n"));
     EXPECT_GE(storage<N>().lost.count, 1u);
     EXPECT_EQ(storage<N>().lost.line, 2u);
