@@ -43,12 +43,20 @@ build/obj/src/%.o: src/%.cpp build/obj/flags
 	@echo "  compile $<"
 	@mkdir -p $(@D)
 	@$(CXX) $(FLAGS) $(PROGRAM) -c $< -o $@
+define ALONE
+	@$(CXX) -r -nostdlib -Wl,--force-group-allocation $(@:.o=.whole) -o $@
+	@objcopy --wildcard --keep-global-symbol='*_lanes_renderer*' $@
+endef
 $(LANED): build/obj/%.o: %.cpp build/obj/flags
 	@echo "  compile $<"
 	@mkdir -p $(@D)
 	@$(CXX) $(FLAGS) $(PROGRAM) $(LANES) -MT $@ -c $< -o $(@:.o=.whole)
-	@$(CXX) -r -nostdlib -Wl,--force-group-allocation $(@:.o=.whole) -o $@
-	@objcopy --wildcard --keep-global-symbol='*_lanes_renderer*' $@
+	$(ALONE)
+$(LANED:build/%=build/sanitized/%): build/sanitized/obj/%.o: %.cpp build/obj/flags
+	@echo "  compile $< with sanitizers"
+	@mkdir -p $(@D)
+	@$(CXX) $(SANITIZE) -O1 $(LANES) -MT $@ -c $< -o $(@:.o=.whole)
+	$(ALONE)
 # Rewritten when the flags change, so that everything is compiled again.
 build/obj/flags: FORCE
 	@mkdir -p $(@D)
@@ -80,7 +88,7 @@ build/obj/tests/%.o: tests/%.cpp build/obj/gtest.hpp.gch
 	@$(CXX) $(FLAGS) -include build/obj/gtest.hpp -c $< -o $@
 
 SANITIZED := $(patsubst build/%,build/sanitized/%,$(LIBRARY))
-build/sanitized/qray: $(patsubst build/%,build/sanitized/%,$(PLAIN))
+build/sanitized/qray: $(patsubst build/%,build/sanitized/%,$(COMMAND))
 	@$(CXX) -fsanitize=address,undefined $^ -pthread -o $@
 build/sanitized/tests/%: build/sanitized/obj/tests/%.o build/sanitized/obj/tests/scene_helpers.o $(SANITIZED)
 	@mkdir -p $(@D)

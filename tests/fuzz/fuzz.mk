@@ -1,8 +1,8 @@
-#   make fuzz SECONDS=600   feed mutated scenes to parser, builders and tracers, from tests/fuzz/corpus
+#   make fuzz SECONDS=600   feed mutated scenes to parser, builders and tracers (vectors in registers), from tests/fuzz/corpus
 FUZZ_CXX := clang++
 SECONDS  ?= 60
 FUZZ_FLAGS := -std=c++20 -O1 -g1 -ffp-contract=off -fno-math-errno -Iinclude -Isrc \
-    -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all
+    -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all $(filter-out -fno-gnu-unique,$(LANES))
 
 build/fuzz_scene: tests/fuzz/fuzz_scene.cpp $(wildcard src/scene/*.cpp src/scene/*.hpp include/qray/*.hpp)
 	@echo "  compile $<"

@@ -1,6 +1,6 @@
 # Random hostile rays without end; `make test` throws a million at each shape in each number system.
 #   make soak                   10^8 rays a shape and number system (60 CPU-minutes); RAYS=N SEED=N
-#   make soak-scenes            10^6 random scenes, with sanitizers (5 CPU-minutes); SCENES=N of each kind, SEED=N
+#   make soak-scenes            10^6 random scenes, with sanitizers, vectors in registers (5 CPU-minutes); SCENES=N of each kind, SEED=N
 build/hostile/hostile: build/obj/tests/hostile/hostile.o $(LIBRARY)
 	@mkdir -p $(@D)
 	@$(CXX) $(OPTIMISE) $^ -pthread -o $@
@@ -15,7 +15,7 @@ soak: build/hostile/hostile
 build/hostile/scenes: tests/hostile/scenes.cpp $(SANITIZED)
 	@echo "  compile $< with sanitizers"
 	@mkdir -p $(@D)
-	@$(CXX) $(SANITIZE) -O1 $^ -o $@
+	@$(CXX) $(SANITIZE) $(LANES) -O1 $^ -o $@
 soak-scenes: build/hostile/scenes
 	@build/hostile/scenes --scenes $(or $(SCENES),125000) --seed $(or $(SEED),3)
 .PHONY: soak soak-scenes

@@ -1,14 +1,25 @@
-# Tests of vectors in registers: of each function, and of vectors and shapes as a whole, where this processor has them.
-LANE_TESTS := build/lanes/test_lanes build/lanes/test_vec build/lanes/test_hostile
+# Tests of vectors in registers: of each function, and of vectors and shapes as a whole, where this processor has them;
+# with sanitizers, hostile scenes too.
+LANE_TESTS := $(addprefix build/lanes/,test_lanes test_vec test_hostile) \
+    $(addprefix build/sanitized/lanes/,test_lanes test_hard_bounds test_fuzz_corpus)
 TESTS += $(if $(LANES),$(if $(shell grep -m1 -w avx2 /proc/cpuinfo 2> /dev/null),$(LANE_TESTS)))
 
 build/lanes/%: build/obj/lanes/%.o $(LIBRARY)
 	@mkdir -p $(@D)
 	@$(CXX) $(OPTIMISE) $^ $(TEST_LIBS) -o $@
-build/obj/lanes/test_lanes.o: tests/lanes/test_lanes.cpp
+build/sanitized/lanes/%: build/sanitized/obj/lanes/%.o $(SANITIZED)
+	@mkdir -p $(@D)
+	@$(CXX) -fsanitize=address,undefined $^ $(TEST_LIBS) -o $@
+build/obj/lanes/test_lanes.o build/sanitized/obj/lanes/test_lanes.o: tests/lanes/test_lanes.cpp
 build/obj/lanes/test_vec.o: tests/test_vec.cpp
 build/obj/lanes/test_hostile.o: tests/test_hostile.cpp
+build/sanitized/obj/lanes/test_hard_bounds.o: tests/test_hard_bounds.cpp
+build/sanitized/obj/lanes/test_fuzz_corpus.o: tests/test_fuzz_corpus.cpp
 build/obj/lanes/%.o: build/obj/flags
 	@echo "  compile $*.cpp in lanes"
 	@mkdir -p $(@D)
 	@$(CXX) $(FLAGS) $(LANES) -c $(filter %.cpp,$^) -o $@
+build/sanitized/obj/lanes/%.o: build/obj/flags
+	@echo "  compile $*.cpp in lanes with sanitizers"
+	@mkdir -p $(@D)
+	@$(CXX) $(SANITIZE) $(LANES) -O1 -c $(filter %.cpp,$^) -o $@

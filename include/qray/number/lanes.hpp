@@ -98,11 +98,12 @@ QRAY_INLINE UnsignedHalf8 unsigned_halves(Word4 v) { return reinterpret_cast<Uns
 QRAY_INLINE Half8 all_halves(int32_t k) { return Half8{k, k, k, k, k, k, k, k}; }
 QRAY_INLINE Word4 all_words(uint64_t k) { return Word4{k, k, k, k}; }
 
-// Of the lower halves; what does not fit wraps.
+// Of the lower halves; what does not fit wraps, as what the upper halves hold may, which is why no signed sum is made.
 QRAY_INLINE Word4 lane_add(Word4 a, Word4 b)
 {
     return reinterpret_cast<Word4>(unsigned_halves(a) + unsigned_halves(b));
 }
+QRAY_INLINE Word4 lane_add(Word4 v, int32_t k) { return lane_add(v, words(all_halves(k))); }
 QRAY_INLINE Word4 lane_sub(Word4 a, Word4 b)
 {
     return reinterpret_cast<Word4>(unsigned_halves(a) - unsigned_halves(b));

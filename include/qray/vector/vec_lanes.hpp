@@ -122,8 +122,8 @@ QRAY_INLINE Vec<float> step_off(const Vec<typename N::Length>& q, const Vec<type
 template <FixedLanes N>
 QRAY_INLINE auto step_off(const Vec<typename N::Length>& q, const Vec<typename N::Unit>& g, bool outward)
 {
-    const Half8 o = halves((outward ? g : -g).lanes);
-    return q + Vec<typename N::Length>(words((o + (1 << (N::Unit::frac - 2))) >> (N::Unit::frac - 1)));
+    const Word4 o = lane_add((outward ? g : -g).lanes, 1 << (N::Unit::frac - 2));
+    return q + Vec<typename N::Length>(words(halves(o) >> (N::Unit::frac - 1)));
 }
 
 template <FloatLanes N, class T>
@@ -229,8 +229,8 @@ QRAY_INLINE auto filtered(const Vec<typename N::Colour>& light, const Vec<typena
 template <FixedLanes N>
 QRAY_INLINE auto step_along(const Vec<typename N::Length>& q, const Vec<typename N::Unit>& d)
 {
-    const Half8 v = halves(d.lanes);
-    return q + Vec<typename N::Length>(words((v + (1 << (N::Unit::frac - 6))) >> (N::Unit::frac - 5)));
+    const Word4 v = lane_add(d.lanes, 1 << (N::Unit::frac - 6));
+    return q + Vec<typename N::Length>(words(halves(v) >> (N::Unit::frac - 5)));
 }
 
 template <FloatLanes N>
@@ -256,7 +256,7 @@ QRAY_INLINE Vec<float> coarse(const Vec<typename N::Length>& p, int32_t)
 template <FixedLanes N>
 QRAY_INLINE auto coarse(const Vec<typename N::Length>& p, int32_t fine)
 {
-    return Vec<typename N::Length>(words((halves(p.lanes) + (1 << fine >> 1)) >> fine));
+    return Vec<typename N::Length>(words(halves(lane_add(p.lanes, 1 << fine >> 1)) >> fine));
 }
 
 // Is any component beyond +-r?
@@ -299,7 +299,7 @@ QRAY_INLINE void clamped_bytes(const Vec<typename N::Colour>& light, int exposur
     constexpr int frac = N::Colour::frac;
     const Half8 limit = all_halves((1 << frac) >> exposure), v = halves(light.lanes);
     const Half8 level = (v < limit ? v : limit) << exposure;
-    const Word4 bytes = lane_rounded(lane_mul(255, words(level + 4)), frac);
+    const Word4 bytes = lane_rounded(lane_mul(255, lane_add(words(level), 4)), frac);
     for (int i = 0; i < 3; i++)
         rgb[i] = static_cast<uint8_t>(bytes[i]);
 }
