@@ -31,13 +31,8 @@ public:
         fit();
         if (!fine_enough(error))
             return false;
-        resolution.pairs(s.sorted);
-        // Patches first: a corner's normal has the number of the corner, and polygons need none.
-        for (const bool patches : {true, false}) {
-            place = 0;
-            for (uint32_t i = 0; i < d.object_count; i++)
-                add(d.objects[i], patches);
-        }
+        resolution.pairs(s.sorted.data);
+        shapes();
         lights();
         materials();
         camera();

@@ -88,6 +88,11 @@ struct Warning {
     }
 };
 
+// One line for people: file:line:column: text.
+struct Error {
+    char text[512] = {};
+};
+
 // An object by what it is sorted by.
 struct SortedObject {
     double x, y, z;

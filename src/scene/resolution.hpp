@@ -152,12 +152,12 @@ public:
     // Which surfaces lie so close that what is between them is lost? `sorted` has room for all objects.
     void pairs(SortedObject* sorted)
     {
-        static constexpr Shape kinds[] = {Shape::sphere, Shape::cone, Shape::plane};
+        static constexpr Kind kinds[] = {Kind::sphere, Kind::cone, flat};
         const double near = Steps<N>::clear_apart * step();
-        for (const Shape kind : kinds) {
+        for (const Kind kind : kinds) {
             uint32_t count = 0;
             for (uint32_t i = 0; i < d.object_count; i++)
-                if (kind_of(d.objects[i].shape) == kind) {
+                if (kind_of(d.objects[i]) == kind) {
                     const Vec3d k = key(d.objects[i]);
                     sorted[count++] = {k.x, k.y, k.z, i};
                 }
@@ -171,7 +171,7 @@ public:
                         break;
                     // The tiles of one floor are told apart here: there may be many.
                     if (fmax(fabs(b.y - a.y), fabs(b.z - a.z)) > near
-                        || (kind == Shape::plane && b.x - a.x <= 0x1p-52 * b.x))
+                        || (kind == flat && b.x - a.x <= 0x1p-52 * b.x))
                         continue;
                     pair(d.objects[a.index < b.index ? a.index : b.index],
                          d.objects[a.index < b.index ? b.index : a.index]);

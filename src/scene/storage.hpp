@@ -51,7 +51,7 @@ struct Storage {
     Array<ShapeId> shape_ids;
     Array<BallBlock> blocks;
     Tree tree;
-    SortedObject sorted[Limits::objects]; // for the builder alone
+    Array<SortedObject> sorted; // for the builder alone
 
     // Cuts empty tables from the room where it is large enough; returns how many bytes it must have.
     size_t lay_out(const Description& d)
