@@ -1,7 +1,7 @@
 """What src/study/floor.py makes of counts. From the top of the repository: python3 tests/test_floor.py"""
 
+import os
 import re
-import subprocess
 import sys
 import unittest
 
@@ -44,16 +44,32 @@ class Parts(unittest.TestCase):
                 self.assertIn(need, " ".join(text.split("\n")))
 
     def test_other_effects_are_refused(self):
-        with self.assertRaisesRegex(SystemExit, "cone_test.* no least cost"):
+        with self.assertRaisesRegex(SystemExit, "cone, of which no least cost"):
             floor.counts("scenes/showcase.nff", "16x12")
 
     def test_every_step_of_a_scene_is_counted(self):
-        done = subprocess.run(["build/study/operations", "q32", floor.SCENE, "16x12"], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
         found = floor.counts(floor.SCENE, "16x12")
         self.assertEqual(found["pixel"], 192)
         least, _ = floor.floor("microbit", found, found["ray"] + found["lit"])
         self.assertEqual(set(least), set(floor.STEPS))
+
+    # One ray along the axis of five balls before it and five behind it, past five more, between two discs; a lamp at
+    # its origin lights the first ball.
+    def test_what_one_ray_asks_for(self):
+        os.makedirs("build/study", exist_ok=True)
+        path = "build/study/test_floor.nff"
+        with open(path, "w") as file:
+            file.write("v from 0 0 0 at 0 0 -1 up 0 1 0 angle 1 hither 1 resolution 1 1\nl 0 0 0\n"
+                       "material highlight 1 shine 5\n")
+            file.writelines(f"s 0 0 {3 * i} 1\n" for i in range(-5, 6) if i)
+            file.writelines(f"s 5 0 {-3 * i} 1\n" for i in range(1, 6))
+            file.write("disc 0 0 -20 0 0 1 2\ndisc 0 0 20 0 0 1 2\n")
+        found = floor.counts(path, "1x1")
+        for name, count in (("pixel", 1), ("sample", 1), ("ray", 1), ("hit", 1), ("sphere_seen", 1), ("disc_seen", 0),
+                            ("mirrored", 0), ("checker", 0), ("lamp", 1), ("lit", 1), ("shine", 1), ("shine_square", 3)):
+            self.assertEqual(found[name], count, name)
+        # Of the ray itself and of the light's, which starts at the first ball, up to z = 0.
+        self.assertEqual(found["sphere_test"], 15 + 15)
 
 
 class Readme(unittest.TestCase):

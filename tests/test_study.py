@@ -12,7 +12,6 @@ import zlib
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, "src/study")
-import calibrate  # noqa: E402
 import figures  # noqa: E402
 import ladder  # noqa: E402
 import report  # noqa: E402
@@ -32,14 +31,6 @@ class Parts(unittest.TestCase):
     def test_frontier(self):
         points = [(5, 30), (1, 10), (4, 10), (2, 20), (3, 15), (5, 31), (9, 31)]
         self.assertEqual(figures.frontier_of(points), [(1, 10), (2, 20), (5, 31)])
-
-    # 3 a + 5 b, exactly; and a cost that would be below 0 is 0.
-    def test_least_squares(self):
-        rows = [(1, 0), (0, 2), (1, 1), (4, 3)]
-        found = calibrate.least_squares(rows, [3 * a + 5 * b for a, b in rows], 0)
-        self.assertAlmostEqual(found[0], 3, 6)
-        self.assertAlmostEqual(found[1], 5, 6)
-        self.assertEqual(calibrate.least_squares([(1, 0), (0, 1)], [2, -1], 0), [2, 0])
 
     def test_axis(self):
         axis = svg.Axis(10, 1000, 0, 200, log=True)

@@ -119,6 +119,8 @@ run: $(FW_ELF) $(FW_COUNT) $(if $(filter uart,$(OUTPUT)),$(FW_ELF:.elf=.hex)) | 
 	    $(if $(FW_COUNT),--rays $(FW_COUNT)) --picture $(FW_STEM).ppm
 size: $(FW_ELF)
 	@$(FW_REPORT)
+describe:
+	@echo '{"tools": "$(BOARD_TOOLS)", "cpu": "$(BOARD_CPU)", "optimise": "$(BOARD_OPTIMISE)", "qemu": "$(BOARD_QEMU)"}'
 profile: $(FW_ELF) | firmware-qemu
 	@python3 $(FW_SRC)/common/profile.py --tools $(BOARD_TOOLS) --qemu '$(BOARD_QEMU)' $(FW_ELF)
 
@@ -138,5 +140,7 @@ run size profile:
 	@echo "usage: make $@ BOARD=board SCENE=scenes/x.nff NUMBER=q32 [SIZE=64x48] [SAMPLES=4] [ADAPTIVE=2]" >&2
 	@echo "boards: $(FW_BOARDS)" >&2
 	@exit 2
+describe:
+	@echo '{"boards": "$(FW_BOARDS)"}'
 endif
-.PHONY: run size profile firmware-tools firmware-qemu FORCE
+.PHONY: run size profile describe firmware-tools firmware-qemu FORCE

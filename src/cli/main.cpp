@@ -1,6 +1,7 @@
 // qray: draws a scene, or hands over to one of its other commands.
 #include "../scene/reader.hpp"
 #include "compile.hpp"
+#include "describe.hpp"
 #include "draw.hpp"
 #include "load.hpp"
 #include "stats.hpp"
@@ -93,6 +94,8 @@ int run(int argc, char** argv)
 {
     if (argc > 1 && strcmp(argv[1], "compile") == 0)
         return compile_main(argc - 1, argv + 1);
+    if (argc == 2 && strcmp(argv[1], "--describe") == 0)
+        return describe();
     return draw_main(argc, argv);
 }
 

@@ -143,7 +143,7 @@ void print_help(Command command)
     switch (command) {
     case Command::draw:
         puts("\nexample: qray scenes/showcase.nff -s 640x480 -r 4 -o picture.ppm\n"
-             "also: qray compile -h\n"
+             "also: qray compile -h; qray --describe, what there is as JSON\n"
              "exit status: 0; 1: bad scene, or the picture cannot be written; 2: bad options");
         break;
     case Command::compile:

@@ -14,8 +14,6 @@ struct Built {
     Effects effects;
     uint32_t vanished; // objects smaller than the number system's resolution
     scene::Warning lost; // what the number system cannot draw right
-    uint32_t balls;
-    uint32_t table_bytes; // of the scene when it is compiled
     const char* kernel;
 };
 
@@ -37,16 +35,6 @@ extern const Renderer q32_lanes_renderer __attribute__((weak)), float_lanes_rend
 const Renderer& fastest_renderer(Number number);
 
 template <class N>
-uint32_t table_bytes(const scene::Storage<N>& s)
-{
-    size_t sum = 0;
-    scene::for_each_table(s, s.effects, [&sum](const auto& array, const char*, const char*) {
-        sum += array.count * sizeof *array.data;
-    });
-    return static_cast<uint32_t>(sum);
-}
-
-template <class N>
 scene::Storage<N>& storage_of()
 {
     static scene::Storage<N> storage;
@@ -66,7 +54,7 @@ struct RendererOf {
         if (!scene::Builder<N>(description, settings, storage).build(error))
             return false;
         built = {storage.camera.width, storage.camera.height, storage.effects, storage.vanished,
-                 storage.lost, storage.spheres.count, table_bytes(storage), Kernel<N>::name(storage)};
+                 storage.lost, Kernel<N>::name(storage)};
         return true;
     }
     static void rows(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts)

@@ -23,6 +23,7 @@ sys.path.insert(0, "src/boards/common")
 import elf as elf_file  # noqa: E402
 import profile as profiler  # noqa: E402
 from programs import environment, fail, message_of  # noqa: E402
+from settings import board_facts  # noqa: E402
 
 # Cycles by class of src/boards/common/profile.py; `several` is what a load or store of several costs beside
 # one cycle for each register, `return` what it costs where it pops them.
@@ -144,22 +145,21 @@ def measure(run, name):
     done = subprocess.run(build, capture_output=True, text=True, env=environment())
     if done.returncode != 0:
         return {"refused": message_of(done)}
-    with open(f"src/boards/{run.board}/board.mk") as file:
-        settings = dict(re.findall(r"^(\w+)\s*:=\s*(.*)$", file.read(), re.M))
+    facts = board_facts(run.board)
     path = f"build/{run.board}/{name}-{run.number}.elf"
     elf = elf_file.Elf(path)
-    program = elf_file.Program(elf, settings["BOARD_TOOLS"])
+    program = elf_file.Program(elf, facts["tools"])
     host = [(s[3], s[3] + s[5]) for s in elf.sections if s[0] in (".host", ".vectors")]
     start = program.entry("start")
     mine = {a for a in program.code if program.owner(a) not in (start, None)
             and not any(low <= a < high for low, high in host)}
-    names = chains(settings["BOARD_TOOLS"], path, sorted(mine))
+    names = chains(facts["tools"], path, sorted(mine))
     step = {a: step_of(chain) for a, chain in names.items()}
     for a in program.code:
         if a not in mine:
             step[a] = "outside"
     image = {"path": path, "next": {a: i.next for a, i in program.code.items()}}
-    counts, taken, steps = count(shlex.split(settings["BOARD_QEMU"]), image, step)
+    counts, taken, steps = count(shlex.split(facts["qemu"]), image, step)
     steps.pop("outside", None)
     classes, cycles = collections.Counter(), 0
     for address, number in counts.items():

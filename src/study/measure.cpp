@@ -6,6 +6,7 @@
 #include "../cli/input.hpp"
 #include "../cli/renderer.hpp"
 #include "errors.hpp"
+#include "scattered.hpp"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -49,11 +50,25 @@ void see(uint32_t* places)
         }
 }
 
+// A comb's pixels.
+template <class N>
+void comb(const Scattered& combs, uint32_t k, uint8_t* rgb, RayCounts& counts)
+{
+    const auto view = cli::storage_of<N>().template view<everything(Settings::max_depth)>();
+    const Scattered::Comb at = combs(k);
+    for (uint32_t i = 0; i < combs.length(); i++)
+        Rgb888::put(render_pixel(view, at.x + i * combs.stride(), at.y, counts), rgb + 3 * i);
+}
+
 struct System {
     const char* name;
     void (*see)(uint32_t* places);
+    void (*comb)(const Scattered&, uint32_t, uint8_t* rgb, RayCounts&);
 };
-constexpr System systems[] = {{"q16", see<q16>}, {"q32", see<q32>}, {"float", see<Float>}, {"double", see<Double>}};
+constexpr System systems[] = {{"q16", see<q16>, comb<q16>},
+                              {"q32", see<q32>, comb<q32>},
+                              {"float", see<Float>, comb<Float>},
+                              {"double", see<Double>, comb<Double>}};
 
 int index_of(const char* name, size_t length)
 {
@@ -158,6 +173,50 @@ void measure(const char* scene, const char* setting, Settings s, bool whole)
     printf(",%ld\n", other);
 }
 
+// `systems` are in the order of cli::renderers.
+void measure_combs(const char* range, const char* const* settings, Settings best)
+{
+    uint32_t first = 0, last = 0;
+    if (sscanf(range, "%u-%u", &first, &last) != 2 || last < first)
+        fail("expected FIRST-LAST, not ", range);
+    Built built{};
+    scene::Error error;
+    best.grid = 8;
+    best.depth = 8;
+    renderer("double").build(description, best, built, error);
+    const Scattered combs{built.width, built.height};
+    last = last < combs.count() ? last : combs.count();
+    const size_t length = combs.length();
+    if (size_t{last - first} * length > max_pixels)
+        fail("too many combs: ", range);
+    printf("{\"width\": %u, \"height\": %u, \"combs\": %u, \"length\": %zu}\n", built.width, built.height,
+           combs.count(), length);
+    RayCounts counts;
+    for (uint32_t k = first; k < last; k++)
+        systems[index_of("double", 6)].comb(combs, k, truth + 3 * length * (k - first), counts);
+    for (; *settings != nullptr; settings++) {
+        Settings s = best;
+        s.grid = 1;
+        const int number = read_setting(*settings, s);
+        if (!cli::renderers[number]->build(description, s, built, error)) {
+            printf("{\"setting\": \"%s\", \"spawns\": 0, \"of\": []}\n", *settings);
+            continue;
+        }
+        printf("{\"setting\": \"%s\", \"spawns\": %d, \"of\": [", *settings, built.effects.spawns());
+        for (uint32_t k = first; k < last; k++) {
+            counts = {};
+            systems[number].comb(combs, k, picture, counts);
+            Errors errors;
+            errors.add(picture, truth + 3 * length * (k - first), length);
+            uint64_t rays = 0;
+            for (uint64_t n : counts.rays)
+                rays += n;
+            printf("%s[%llu, %.0f]", k == first ? "" : ", ", static_cast<unsigned long long>(rays), errors.squares);
+        }
+        puts("]}");
+    }
+}
+
 } // namespace
 
 } // namespace qray::study
@@ -166,16 +225,22 @@ int main(int argc, char** argv)
 {
     using namespace qray::study;
     Settings s;
-    const bool whole = argc < 2 || strcmp(argv[1], "-a") != 0;
-    if (!whole) {
-        argv++;
-        argc--;
-    }
-    if (argc < 4 || sscanf(argv[2], "%ux%u", &s.width, &s.height) != 2 || s.width * s.height > max_pixels)
-        fail("usage: measure [-a] SCENE WxH NUMBER:SAMPLES:DEPTH:CUTOFF ...", "");
+    const char* const mode = argc > 1 && argv[1][0] == '-' ? argv[1] : "";
+    const char* const range = strcmp(mode, "-p") == 0 && argc > 2 ? argv[2] : nullptr;
+    const bool whole = *mode == 0;
+    const int used = (*mode != 0) + (range != nullptr);
+    argv += used;
+    argc -= used;
+    const bool sized = argc > 2 && sscanf(argv[2], "%ux%u", &s.width, &s.height) == 2;
+    if (argc < 4 || (range == nullptr && (!sized || s.width * s.height > max_pixels)))
+        fail("usage: measure [-a | -p FIRST-LAST] SCENE WxH NUMBER:SAMPLES:DEPTH:CUTOFF ...", "");
     qray::scene::Error error;
     if (!qray::cli::read_scene(argv[1], description, error))
         fail(error.text, "");
+    if (range != nullptr) {
+        measure_combs(range, argv + 3, s);
+        return 0;
+    }
     Settings best = s;
     best.grid = 16;
     best.depth = 8;

@@ -9,16 +9,21 @@ def fail(text):
     raise SystemExit(f"{os.path.basename(sys.argv[0])}: {text}")
 
 
+# What an outer make says to its own children, and what firmware is made of.
+OUTER = {"MAKEFLAGS", "MAKELEVEL", "MFLAGS", "BOARD", "SCENE", "NUMBER", "SIZE", "SAMPLES", "ADAPTIVE", "DEPTH",
+         "CUTOFF", "NAME", "RAYS", "OUTPUT"}
+
+
 def environment():
-    """Without what an outer make says to its own children."""
-    return {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+    return {k: v for k, v in os.environ.items() if k not in OUTER}
 
 
 def output_of(*command):
-    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+    return subprocess.run(command, capture_output=True, text=True, check=True, env=environment()).stdout.strip()
 
 
 def message_of(done):
     """The first error in what a program said, else its last line."""
-    lines = (done.stdout + done.stderr).strip().splitlines() or ["no message"]
+    lines = [line for line in (done.stdout + done.stderr).splitlines() if line.strip() and not line.startswith("make")]
+    lines = lines or ["no message"]
     return next((line for line in lines if "error:" in line), lines[-1])

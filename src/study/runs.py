@@ -15,7 +15,7 @@ import time
 
 import cycles
 from programs import environment, fail, message_of, output_of
-from settings import BOARDS, numbers  # noqa: F401
+from settings import BOARDS, board_facts, boards, numbers  # noqa: F401
 
 CACHE = "build/study/cache"
 OPTIONS = ("SAMPLES", "ADAPTIVE", "DEPTH", "CUTOFF")
@@ -42,8 +42,7 @@ class Inputs:
         self.compilers = {}
 
     def compiler(self, board):
-        with open(f"src/boards/{board}/board.mk") as file:
-            tools = re.search(r"BOARD_TOOLS\s*:=\s*(\S+)", file.read())[1]
+        tools = board_facts(board)["tools"]
         if tools not in self.compilers:
             if shutil.which(tools + "g++") is None:
                 fail(f"BOARD={board} needs {tools}g++; `make deps` installs it")
@@ -57,11 +56,11 @@ failures = []
 
 
 class Run:
-    """A firmware and what running it measures; `profile` runs it traced instead."""
+    """A firmware and what running it measures; `profile` runs it traced instead, `build_only` not at all."""
 
-    def __init__(self, board, scene, number, size, profile=False, rays=False, **options):
+    def __init__(self, board, scene, number, size, profile=False, rays=False, build_only=False, **options):
         self.board, self.scene, self.number, self.size = board, scene, number, size
-        self.profile, self.rays = profile, rays
+        self.profile, self.rays, self.build_only = profile, rays, build_only
         self.options = {k: str(v) for k, v in options.items() if v is not None}
         assert all(k in OPTIONS for k in self.options)
         self.result = None
@@ -69,19 +68,24 @@ class Run:
     def describe(self):
         name = os.path.basename(self.scene).removesuffix(".nff")
         options = "".join(f" {k.lower()} {v}" for k, v in self.options.items())
-        return f"{BOARDS[self.board]} {self.number} {name} {self.size}{options}{' profile' * self.profile}"
+        board = BOARDS.get(self.board, self.board)
+        return f"{board} {self.number} {name} {self.size}{options}{' profile' * self.profile}"
 
     def key(self, inputs):
         with open(self.scene, "rb") as file:
             scene = hashlib.sha256(file.read()).hexdigest()
         what = [inputs.sources, inputs.compiler(self.board), self.board, scene, self.number, self.size,
-                self.profile and inputs.tracing, self.rays, sorted(self.options.items())]
+                self.profile and inputs.tracing, self.rays, self.build_only, sorted(self.options.items())]
         return hashlib.sha256(json.dumps(what).encode()).hexdigest()[:24]
 
     def command(self, name):
-        return ["make", "--no-print-directory", "profile" if self.profile else "run", f"BOARD={self.board}",
+        target = "profile" if self.profile else "size" if self.build_only else "run"
+        return ["make", "--no-print-directory", target, f"BOARD={self.board}",
                 f"SCENE={self.scene}", f"NUMBER={self.number}", f"SIZE={self.size}", f"NAME={name}",
                 f"RAYS={'yes' if self.rays else 'no'}", *(f"{k}={v}" for k, v in self.options.items())]
+
+    def is_known(self, inputs):
+        return os.path.exists(f"{CACHE}/{self.key(inputs)}.json")
 
     def perform(self, inputs):
         key = self.key(inputs)
@@ -108,7 +112,7 @@ class Run:
     def does_not_fit(self):
         """The scene into the number system, or its firmware into the board."""
         check = ["build/qray", "compile", self.scene, "-q", "-n", self.number, "-o", "/dev/null"]
-        too_large = re.search("will not fit|overflowed|bytes of RAM are free", self.result["refused"])
+        too_large = re.search("will not fit|overflowed|too small|bytes of RAM are free", self.result["refused"])
         return subprocess.run(check, capture_output=True).returncode == 1 or too_large is not None
 
     def measure(self, command):
@@ -124,7 +128,7 @@ def perform(runs, quiet=False, inputs=None):
     os.makedirs(CACHE, exist_ok=True)
     inputs = inputs or Inputs()
     start, done = time.monotonic(), 0
-    todo = [r for r in runs if not os.path.exists(f"{CACHE}/{r.key(inputs)}.json")]
+    todo = [r for r in runs if not r.is_known(inputs)]
     for run in runs:
         if run not in todo:
             run.perform(inputs)

@@ -1,19 +1,34 @@
 """Boards, number systems and settings: what measurements name."""
 
-import re
+import functools
+import json
+
+from programs import output_of
 
 # Short names of boards, in the order of tables.
 BOARDS = {"microbit": "M0", "mps2_an385": "M3", "mps2_an386": "M4F", "mps2_an500": "M7F", "rv32_virt": "RV32"}
-# Those that are studied, and that `qray plan` knows.
+# Those that are studied.
 STUDIED = ["microbit", "mps2_an385", "mps2_an386", "rv32_virt"]
 # Number system, samples (or ADAPTIVE's value after an `a`), depth, cutoff.
 DEFAULT = ("q32", "1", 5, 0.0014)
 
 
+@functools.cache
 def numbers():
     """The number systems, as the command names them."""
-    with open("src/cli/options.hpp") as file:
-        return re.findall(r'"(\w+)"', re.search(r"number_names\[\] = \{(.*?)\}", file.read(), re.S)[1])
+    return json.loads(output_of("build/qray", "--describe"))["numbers"]
+
+
+@functools.cache
+def boards():
+    """The boards that make knows."""
+    return json.loads(output_of("make", "-s", "describe"))["boards"].split()
+
+
+@functools.cache
+def board_facts(board):
+    """What its board.mk says: {tools, cpu, optimise, qemu}."""
+    return json.loads(output_of("make", "-s", "describe", f"BOARD={board}"))
 
 
 def label(setting):

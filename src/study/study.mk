@@ -1,6 +1,6 @@
 # Measurements; see README.md here.
 #   make study [QUICK=1]        what accuracy costs, here and on the boards: CSV and plots in build/study
-#   make calibrate              measure again what `qray plan` predicts from
+#   make plan SCENE=... BOARD=... [MHZ=... SECONDS=... | ERROR=35dB]   which number system, samples, depth
 #   make report                 measure again what README.md's tables between markers say, and write them
 STUDY := src/study
 
@@ -16,6 +16,7 @@ report: build/qray build/oracle $(MEASURE)
 	@$(PYTHON) $(STUDY)/report.py $(REPORT)
 study: build/qray $(MEASURE)
 	@$(PYTHON) $(STUDY)/study.py $(if $(QUICK),quick)
-calibrate: build/qray $(MEASURE)
-	@$(PYTHON) $(STUDY)/calibrate.py
-.PHONY: report study calibrate
+plan: build/qray $(MEASURE)
+	@$(PYTHON) $(STUDY)/plan.py SCENE='$(SCENE)' BOARD='$(BOARD)' SIZE='$(SIZE)' CUTOFF='$(CUTOFF)' MHZ='$(MHZ)' \
+	    SECONDS='$(if $(findstring command,$(origin SECONDS)),$(SECONDS))' ERROR='$(ERROR)'
+.PHONY: report study plan

@@ -14,7 +14,6 @@ import subprocess
 import sys
 
 sys.dont_write_bytecode = True
-import calibrate  # noqa: E402
 import figures  # noqa: E402
 import runs  # noqa: E402
 from settings import DEFAULT, STUDIED as BOARDS  # noqa: E402
@@ -40,6 +39,13 @@ def settings(quick=False):
     return out
 
 
+def traced_size(board, number):
+    """Of a picture that is traced: the slower the arithmetic, the smaller."""
+    if number == "double":
+        return "6x4"
+    return "8x6" if number == "float" and board != "mps2_an386" else "12x9"
+
+
 def options(setting):
     _, samples, depth, cutoff = setting
     sampling = {"ADAPTIVE": samples[1:]} if samples[0] == "a" else {"SAMPLES": samples}
@@ -58,11 +64,8 @@ def commit():
 
 
 def board_flags(board):
-    with open(f"src/boards/{board}/board.mk") as file:
-        text = file.read()
-    found = dict(line.split(":=", 1) for line in text.splitlines() if ":=" in line)
-    found = {k.strip(): v.strip() for k, v in found.items()}
-    return f"{found['BOARD_CPU']} {found['BOARD_OPTIMISE']} -std=c++20 -ffreestanding -ffp-contract=off"
+    facts = runs.board_facts(board)
+    return f"{facts['cpu']} {facts['optimise']} -std=c++20 -ffreestanding -ffp-contract=off"
 
 
 def number(text):
@@ -126,7 +129,7 @@ class Study:
                 for scene, size in self.scenes.items() for board in BOARDS for setting in self.settings}
         numbers = [n for n in runs.numbers() if n in [s[0] for s in self.settings]]
         first = next(iter(self.scenes))
-        traced = {(scene, board, n): runs.Run(board, scene, n, calibrate.size_of(board, n), profile=True)
+        traced = {(scene, board, n): runs.Run(board, scene, n, traced_size(board, n), profile=True)
                   for scene in self.scenes for board in BOARDS for n in numbers
                   if not (n == "double" and scene != first)}
         runs.perform(list(plan.values()) + list(traced.values()), inputs=self.inputs)

@@ -122,7 +122,7 @@ def steps(study):
     found = [study.profiles.get((scene, b, n)) for b, n in columns]
     if not all(found):
         return ""
-    pixels = [math.prod(map(int, study_file.calibrate.size_of(b, n).split("x"))) for b, n in columns]
+    pixels = [math.prod(map(int, study_file.traced_size(b, n).split("x"))) for b, n in columns]
     rows = []
     for step in STEPS:
         names = cycles.TEXTURES if step == "textures" else [step]

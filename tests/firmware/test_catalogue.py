@@ -9,7 +9,8 @@ import sys
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, "tests/firmware")
+sys.path[:0] = ["tests/firmware", "src/study"]
+from settings import board_facts  # noqa: E402
 from test_boards import make  # noqa: E402
 
 # What reject.hpp, base.hpp and the number systems do differently on a core each.
@@ -65,8 +66,7 @@ def run_catalogue(board, number, name="catalogue", **options):
                         *(f"{k}={v}" for k, v in options.items()))
     if status != 0:
         raise RuntimeError(text)
-    with open(f"src/boards/{board}/board.mk") as file:
-        qemu = re.search(r"BOARD_QEMU\s*:=\s*(.*)", file.read())[1].split()
+    qemu = board_facts(board)["qemu"].split()
     done = subprocess.run(qemu + ["-nographic", "-monitor", "none", "-serial", "none", "-semihosting-config",
                                   f"enable=on,target=native,arg={elf}.ppm", "-kernel", elf],
                           capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL)

@@ -1,0 +1,434 @@
+"""make plan SCENE=... BOARD=... [SIZE=WxH CUTOFF=W] [MHZ=F SECONDS=S | ERROR=35dB]: which setting is worth choosing.
+
+Nothing is known of other scenes. The desktop draws pixels scattered over the whole picture (scattered.hpp) with every
+setting, and better ones. Firmware of this very scene draws a small picture in QEMU, and what that takes is scaled by
+the rays of both: first in each number system, then with each setting that may be worth choosing. Flash, RAM and stack
+are those of firmware that is built for the whole picture. What was measured is kept in build/plan under a hash of all
+that goes into it."""
+
+import concurrent.futures
+import hashlib
+import json
+import math
+import os
+import subprocess
+import sys
+import time
+
+sys.dont_write_bytecode = True
+import cycles  # noqa: E402
+import runs  # noqa: E402
+from programs import output_of  # noqa: E402
+
+FOLDER = "build/plan"
+MEASURE = "build/study/measure"
+JOBS = 2
+SAMPLES = ["1", "4", "9", "16", "a2,0.0625", "a3,0.03125"]
+DEPTHS = [5, 3, 2, 1]
+CUTOFF = 0.0014
+BETTER = "-n double -r 64 -d 8"  # what measure.cpp compares with
+DRAWING = 10  # seconds for pixels
+BUILDING = 48  # seconds after which no firmware is begun
+FIRST_PIXELS, WANTED_PIXELS = 1000, 24000  # to begin with, and at least where there is time
+CERTAIN = 0.1  # dB of standard error that is enough
+CERTAIN_RAYS = 0.01  # and of rays, as a share
+INSTRUCTIONS = 2e8  # of a firmware run, about
+GUESS = 2e4  # instructions a ray, before one is known
+LEAST_GAIN = 0.5  # dB; less is not worth a row
+SURE = 0.8  # of a setting's cost, which is known roughly at first, is surely less
+start = time.monotonic()
+
+
+def fail(text, status=2):
+    print(f"plan: {text}", file=sys.stderr)
+    raise SystemExit(status)
+
+
+def say(text):
+    print(f"{time.monotonic() - start:4.0f} s  {text}", file=sys.stderr, flush=True)
+
+
+def positive(name, text, unit=""):
+    try:
+        value = float(text.removesuffix(unit))
+    except ValueError:
+        value = 0
+    if not 0 < value < math.inf:
+        of = f", of levels of 255, or of decibels with {unit}" if unit else ""
+        fail(f"{name}={text}: expected a number above 0{of}")
+    return value
+
+
+class Question:
+    def __init__(self, words):
+        given = dict(w.split("=", 1) for w in words)
+        self.scene, self.board = given.get("SCENE", ""), given.get("BOARD", "")
+        boards = runs.boards()
+        if self.board not in boards:
+            fail(f"BOARD={self.board}: expected one of {', '.join(boards)}")
+        if not self.scene:
+            fail("no scene: SCENE=scenes/x.nff")
+        self.mhz, self.seconds = (positive(k, given[k]) if given.get(k) else None for k in ("MHZ", "SECONDS"))
+        error = given.get("ERROR")
+        self.decibels = error and (positive("ERROR", error, "dB") if error.endswith("dB")
+                                   else 20 * math.log10(255 / positive("ERROR", error, "dB")))
+        if self.seconds and not self.mhz:
+            fail("SECONDS needs the board's clock: MHZ=48")
+        self.size, self.cutoff = given.get("SIZE") or "-", given.get("CUTOFF") or str(CUTOFF)
+        self.compile("double", fail)
+
+    def compile(self, number, refuse=lambda text, status: text):
+        """What `qray compile` says, to `refuse`; None where the scene fits the number system."""
+        size = [] if self.size == "-" else ["-s", self.size]
+        done = subprocess.run(["build/qray", "compile", self.scene, "-q", "-n", number, "--cutoff", self.cutoff, *size,
+                               "-o", "/dev/null"], capture_output=True, text=True)
+        return refuse(done.stderr.strip().removeprefix("qray: "), done.returncode) if done.returncode else None
+
+
+class Pixels:
+    """What the desktop finds: {setting: [[rays, squares of errors] of each comb of pixels]}."""
+
+    def __init__(self, question, settings):
+        with open(question.scene, "rb") as file:
+            text = file.read()
+        own = (f"src/study/{name}" for name in ("measure.cpp", "scattered.hpp", "errors.hpp"))
+        with open("build/obj/flags", "rb") as file:
+            key = [runs.tree_hash("include", "src/scene", *own).encode(), file.read(), text, question.size.encode()]
+        self.path = f"{FOLDER}/{hashlib.sha256(b'@'.join(key)).hexdigest()[:24]}.pixels.json"
+        self.question = question
+        self.known, self.head = {}, None
+        if os.path.exists(self.path):
+            with open(self.path) as file:
+                self.head, known = json.load(file)
+                self.known = {tuple(s): of for s, of in known}
+        else:
+            self.measure(settings, 0, 1)
+
+    def measure(self, settings, first, last):
+        """Combs first to last - 1."""
+        words = ["{}:{}:{}:{}".format(*s) for s in settings]
+        out = output_of(MEASURE, "-p", f"{first}-{last}", self.question.scene, self.question.size, *words)
+        self.head, *found = map(json.loads, out.splitlines())
+        return {s: f["of"] for s, f in zip(settings, found)}
+
+    def draw(self, settings, count):
+        """From now on, judges by so many combs, and by these settings."""
+        self.count = count = min(count, self.head["combs"])
+        short = {}
+        for s in settings:
+            short.setdefault(len(self.known.get(s, ())), []).append(s)
+        for first, those in short.items():
+            if first >= count:
+                continue
+            with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
+                middle = (first + count + 1) // 2
+                parts = list(pool.map(lambda r: self.measure(those, *r), [(first, middle), (middle, count)]))
+            for s in those:
+                self.known[s] = self.known.get(s, []) + parts[0][s] + parts[1][s]
+        with open(self.path + ".part", "w") as file:
+            json.dump([self.head, list(self.known.items())], file)
+        os.replace(self.path + ".part", self.path)
+
+    def rays(self, setting):
+        """Of the whole picture."""
+        of = self.known[setting][:self.count]
+        return sum(r for r, _ in of) / len(of) / self.head["length"] * self.head["width"] * self.head["height"]
+
+    def mean_square(self, setting):
+        of = self.known[setting][:self.count]
+        return sum(s for _, s in of) / len(of) / self.head["length"] / 3
+
+    def decibels(self, setting):
+        mean = self.mean_square(setting)
+        return min(99, 10 * math.log10(255 ** 2 / mean)) if mean else 99
+
+    def is_certain(self, setting):
+        """Are rays and dB known as well as is wanted?"""
+        def doubt(values):
+            mean, n = sum(values) / len(values), len(values)
+            return mean and math.sqrt(sum((v - mean) ** 2 for v in values) / n / n) / mean
+        rays, squares = map(doubt, zip(*self.known[setting][:self.count]))
+        return rays < CERTAIN_RAYS and squares * 10 / math.log(10) < CERTAIN
+
+
+def kind_of(setting):
+    """Settings of a kind differ in numbers only, from which compilers may make other code."""
+    number, samples, depth, _ = setting
+    return number, samples if samples == "1" else "adaptive" if samples[0] == "a" else "grid", depth == 1
+
+
+class Plan:
+    def __init__(self, question):
+        self.question, self.inputs = question, runs.Inputs()
+        self.refused = {n: why for n in runs.numbers() if (why := question.compile(n))}
+        self.settings = [(n, s, d, question.cutoff) for n in runs.numbers() if n not in self.refused
+                         for s in SAMPLES for d in DEPTHS]
+        self.pixels = Pixels(question, self.settings)
+        # Double is never cheaper than float.
+        pairs = [("double", *s[1:]) for s in self.settings if s[0] == "float" and s[1] in "14" and s[2] == 5]
+        self.count = math.ceil(FIRST_PIXELS / self.pixels.head["length"])
+        self.pixels.draw(pairs + [("float", *s[1:]) for s in pairs], self.count)
+        if all(self.pixels.decibels(s) < self.pixels.decibels(("float", *s[1:])) + LEAST_GAIN for s in pairs):
+            self.refused["double"] = "it is not more accurate than float"
+            self.settings = [s for s in self.settings if s[0] != "double"]
+        self.size = "{width}x{height}".format(**self.pixels.head)
+        self.per_ray, self.cycles = {}, {}  # by setting and by kind, instructions; by number, cycles of one
+        self.built = {}  # by setting: flash, ram, stack_bound; or what was refused
+
+    def options(self, setting):
+        _, samples, depth, cutoff = setting
+        sampling = {"ADAPTIVE": samples[1:]} if samples[0] == "a" else {"SAMPLES": samples} if samples != "1" else {}
+        return {**sampling, **({"DEPTH": depth} if depth != 5 else {}),
+                **({"CUTOFF": cutoff} if float(cutoff) != CUTOFF else {})}
+
+    def run(self, setting, size, **more):
+        return runs.Run(self.question.board, self.question.scene, setting[0], size, **more, **self.options(setting))
+
+    def perform(self, todo):
+        """[(setting, run), ...], two at a time while there is time; those that were."""
+        done = []
+
+        def one(pair):
+            if time.monotonic() - start < BUILDING or pair[1].is_known(self.inputs):
+                pair[1].perform(self.inputs)
+                done.append(pair)
+        with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
+            list(pool.map(one, todo))
+        return done
+
+    def small(self, setting):
+        """The size of a picture that is drawn soon."""
+        share = INSTRUCTIONS / self.ray(setting) / self.pixels.rays(setting)
+        return self.size if share >= 1 else "x".join(str(max(1, round(self.pixels.head[k] * math.sqrt(share))))
+                                                     for k in ("width", "height"))
+
+    def ray(self, setting):
+        """Instructions of a ray, or of one like it before they are known."""
+        like = (setting, kind_of(setting), (setting[0], "1", False))
+        return next((self.per_ray[k] for k in like if k in self.per_ray), GUESS)
+
+    def rays_at(self, setting, size):
+        """As the desktop counts them."""
+        number, samples, depth, cutoff = setting
+        sampling = ["-a", samples[1:]] if samples[0] == "a" else ["-r", samples]
+        done = subprocess.run(["build/qray", self.question.scene, "-q", "--stats", "-s", size, "-n", number, *sampling,
+                               "-d", str(depth), "--cutoff", cutoff, "-o", "/dev/null"], capture_output=True, text=True)
+        return next(int(line.split()[1]) for line in done.stderr.splitlines() if line.startswith("rays:"))
+
+    def learn(self, setting, run):
+        """From a run: what a ray takes."""
+        if "refused" not in run.result:
+            self.per_ray[setting] = run.result["instructions"] / self.rays_at(setting, run.size)
+            self.per_ray.setdefault(kind_of(setting), self.per_ray[setting])
+
+    def is_measured(self, setting):
+        return setting in self.built and setting in self.per_ray
+
+    def instructions(self, setting):
+        """Of the whole picture."""
+        return self.ray(setting) * self.pixels.rays(setting)
+
+    def cost(self, setting):
+        """Instructions, or cycles where they are known."""
+        return self.instructions(setting) * self.cycles.get(setting[0], 1)
+
+    def frontier(self, slack=1):
+        """Settings that no other is as accurate as and cheaper than; by `slack`, surely so. The cheapest first."""
+        able = [s for s in self.settings if s[0] not in self.refused and "refused" not in self.built.get(s, {})]
+        found = {s: (self.cost(s), self.pixels.decibels(s)) for s in able}
+        out, gain, asked = [], LEAST_GAIN if slack == 1 else 0, self.question.decibels or 0
+        for s in sorted(able, key=lambda s: (found[s][0], -found[s][1])):
+            best = max((found[o][1] for o in out if found[o][0] <= slack * found[s][0]), default=-1)
+            if found[s][1] > best + gain or found[s][1] >= asked > best:
+                out.append(s)
+        return out
+
+    def measure(self):
+        comb = self.pixels.head["length"]
+        say(f"drawing pixels of {self.size} with {len(self.settings)} settings")
+        count = self.count
+        self.pixels.draw(self.settings, count)
+        # Fewer levels than the rays have are a setting of their own only if they change something.
+        known = {s: self.pixels.known[s][:count] for s in self.settings}
+        self.settings = [s for s in self.settings if s[2] == 5 or known[s] != known[s[0], s[1], 5, s[3]]]
+        first = [next(s for s in self.settings if s[0] == n) for n in runs.numbers() if n not in self.refused]
+        say(f"building {len(first)} number systems for {self.question.board}")
+        for s, run in self.perform([(s, self.run(s, size=self.small(s))) for s in first]):
+            self.learn(s, run)
+            if "refused" in run.result:
+                self.refused[s[0]] = run.result["refused"]
+        for s in first:
+            if s not in self.per_ray:
+                self.refused.setdefault(s[0], "there was no time to build it")
+        if self.question.mhz and self.question.board in cycles.TIMINGS:
+            calls = {s[0] for s in self.frontier(SURE)}
+            for s, run in self.perform([(s, self.run(s, size="8x6", profile=True)) for s in first if s[0] in calls]):
+                if "refused" not in run.result:
+                    self.cycles[s[0]] = run.result["cycles"] / run.result["instructions"]
+            self.cycles = {n: self.cycles.get(n, max(self.cycles.values(), default=1)) for n, *_ in first}
+        begin, last = time.monotonic(), 0
+        while self.pixels.count < self.pixels.head["combs"] and time.monotonic() + 2 * last - begin < DRAWING:
+            self.settings = self.frontier(SURE)
+            if count * comb >= WANTED_PIXELS and all(self.pixels.is_certain(s) for s in self.settings):
+                break
+            count *= 2
+            say(f"drawing {min(count, self.pixels.head['combs']) * comb} pixels with {len(self.settings)} settings")
+            last = time.monotonic()
+            self.pixels.draw(self.settings, count)
+            last = time.monotonic() - last
+        while True:
+            todo = self.by_interest([s for s in self.frontier() if not self.is_measured(s)])
+            if not todo or time.monotonic() - start > BUILDING:
+                break
+            say(f"building {len(todo)} settings for {self.question.board}")
+            pairs = [(s, self.run(s, size=size, build_only=size != small)) for s in todo
+                     for small in [self.small(s)] for size in sorted({self.size, small})]
+            done = self.perform(pairs)
+            for s, run in done:
+                if run.size == self.size or "refused" in run.result:
+                    self.built[s] = run.result
+                if not run.build_only:
+                    self.learn(s, run)
+            if not done:
+                break
+
+    def by_interest(self, settings):
+        """Those next to what was asked for first, as time may end."""
+        q = self.question
+        if q.decibels:
+            return sorted(settings, key=lambda s: abs(self.pixels.decibels(s) - q.decibels))
+        if q.seconds:
+            return sorted(settings, key=lambda s: abs(math.log(self.seconds(s) / q.seconds)))
+        return settings
+
+    def seconds(self, setting):
+        return self.cost(setting) / (self.question.mhz * 1e6)
+
+    def within(self, setting):
+        q = self.question
+        return (not q.seconds or self.seconds(setting) <= q.seconds) and (
+            not q.decibels or self.pixels.decibels(setting) >= q.decibels)
+
+    def command(self, setting, size=None):
+        words = {"BOARD": self.question.board, "SCENE": self.question.scene, "NUMBER": setting[0],
+                 "SIZE": size or self.size, **self.options(setting)}
+        return "make run " + " ".join(f"{k}={v}" for k, v in words.items())
+
+
+def table(plan, frontier, chosen):
+    q, head = plan.question, plan.pixels.head
+    print(f"{q.scene} on {q.board}, {plan.size} pixels")
+    for n, why in plan.refused.items():
+        print(f"without {n}: {why}")
+    if not frontier:
+        return
+    print(f"dB: against `build/qray {q.scene} {BETTER} -s {plan.size}`, by {plan.pixels.count * head['length']} of "
+          f"{head['width'] * head['height']} pixels; 99 is no difference")
+    if q.mhz:
+        known = ", ".join(f"{n} {c:.2f}" for n, c in plan.cycles.items() if n in [s[0] for s in frontier])
+        known = f"by the core's timings ({known}), memory that never waits" if known else "unknown for this core, taken as 1"
+        print(f"seconds: at {q.mhz:g} MHz, cycles an instruction {known}")
+    print(f"  {'number':7}{'samples':>18}{'depth':>6}{'instructions':>16}{'seconds' * bool(q.mhz):>10}{'dB':>7}"
+          f"{'flash':>8}{'RAM':>7}{'stack':>7}")
+    rough = False
+    for s in frontier:
+        built = plan.is_measured(s) and plan.built[s]
+        rough |= not built
+        sizes = [f"{built[k]}" for k in ("flash", "ram", "stack_bound")] if built else ["~"] * 3
+        seconds = f"{plan.seconds(s):.3g}" if q.mhz else ""
+        samples = f"adaptive {s[1][1:]}" if s[1][0] == "a" else s[1]
+        print(f"{'*' if s == chosen else ' '} {s[0]:7}{samples:>18}{s[2]:>6}{'' if built else '~':>2}"
+              f"{plan.instructions(s):14.0f}{seconds:>10}{plan.pixels.decibels(s):7.1f}"
+              f"{sizes[0]:>8}{sizes[1]:>7}{sizes[2]:>7}")
+    if rough:
+        print("~: there was no time to build it; asked again, it will be")
+
+
+def smaller(plan, setting):
+    """The SIZE of a picture that takes no longer than was asked for, or None."""
+    share = plan.question.seconds / plan.seconds(setting)
+    while True:
+        width, height = (int(plan.pixels.head[k] * math.sqrt(share)) for k in ("width", "height"))
+        if width * height == 0:
+            return None
+        rays = plan.rays_at(setting, f"{width}x{height}")
+        if rays * plan.seconds(setting) < 0.98 * plan.question.seconds * plan.pixels.rays(setting):
+            return f"{width}x{height}"
+        share *= 0.97
+
+
+def what_would_have_to_give(plan, frontier):
+    """Lines for where nothing is within what was asked for."""
+    q = plan.question
+    if not frontier:
+        return nothing_fits(plan)
+    out = []
+    if q.decibels:
+        able = [s for s in frontier if plan.pixels.decibels(s) >= q.decibels]
+        if not able:
+            best = frontier[-1]
+            return [f"nothing has {q.decibels:.1f} dB; the most accurate has {plan.pixels.decibels(best):.1f} dB:",
+                    plan.command(best)]
+        mhz, size = q.mhz * plan.seconds(able[0]) / q.seconds, smaller(plan, able[0])
+        out.append(f"{q.decibels:.1f} dB take {plan.seconds(able[0]):.3g} s; {mhz:.3g} MHz would do"
+                   + ", or a smaller picture (of other dB):" * bool(size))
+        out += [plan.command(able[0], size)] if size else []
+        quick = [s for s in frontier if plan.seconds(s) <= q.seconds]
+        if quick:
+            out += [f"or be content with {plan.pixels.decibels(quick[-1]):.1f} dB:", plan.command(quick[-1])]
+        return out
+    least = frontier[0]
+    size = smaller(plan, least)
+    out.append(f"nothing takes {q.seconds:g} s or less; the cheapest takes {plan.seconds(least):.3g} s; "
+               f"{q.mhz * plan.seconds(least) / q.seconds:.3g} MHz would do" + ", or a smaller picture:" * bool(size))
+    return out + ([plan.command(least, size)] if size else [])
+
+
+def nothing_fits(plan):
+    """The largest picture with the fewest rays that the board's memory holds."""
+    w, h = plan.pixels.head["width"], plan.pixels.head["height"]
+    why = next((b["refused"] for b in plan.built.values()), None) or next(reversed(plan.refused.values()))
+    out = [f"no setting fits {plan.question.board}: {why}"]
+    numbers = [n for n in runs.numbers() if any(s[0] == n for s in plan.settings)]
+    for step in range(16):
+        size = f"{max(1, int(w * 0.8 ** step))}x{max(1, int(h * 0.8 ** step))}"
+        for n in numbers:
+            for depth in (5, 1):
+                setting = (n, "1", depth, plan.question.cutoff)
+                run = plan.run(setting, size=size, build_only=True)
+                run.perform(plan.inputs)
+                if "refused" not in run.result:
+                    return out + ["with a smaller picture or less depth it does:", plan.command(setting, size)]
+                if step and run.result["refused"].startswith("flash"):
+                    numbers = [m for m in numbers if m != n]
+                    break
+        if not numbers or time.monotonic() - start > BUILDING:
+            break
+    return out + ["no smaller picture helps: it takes fewer objects, or a larger board"]
+
+
+def main():
+    question = Question(sys.argv[1:])
+    os.makedirs(FOLDER, exist_ok=True)
+    runs.CACHE = FOLDER
+    plan = Plan(question)
+    plan.measure()
+    frontier = plan.frontier()
+    able = [s for s in frontier if plan.within(s)]
+    wanted = question.seconds or question.decibels
+    chosen = (able[0] if question.decibels else able[-1]) if wanted and able else None
+    table(plan, frontier, chosen)
+    if chosen:
+        print(f"\n{plan.command(chosen)}")
+    elif frontier and not wanted:
+        print(f"\nfor example: {plan.command(frontier[-1])}\nMHZ= and SECONDS=, or ERROR=35dB, choose")
+    else:
+        sys.stdout.flush()
+        first, *rest = what_would_have_to_give(plan, frontier)
+        print("\n".join([f"plan: {first}"] + rest), file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
