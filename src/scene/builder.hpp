@@ -232,6 +232,12 @@ private:
             }
             if constexpr (is_float) // what is not 0 from there to a surface has a square that float holds
                 at = {off_zero(at.x), off_zero(at.y), off_zero(at.z)};
+            if (shift == 0)
+                resolution.light_surfaces(l.at, [this](uint32_t place, uint32_t fill, const Vec3d& outward, int32_t side) {
+                    if (s.light_surfaces.count < d.light_count * light_surfaces_each)
+                        s.light_surfaces.push() = {s.lights.count, make_tag(place, fill),
+                                                   Convert<N>::direction(outward), side};
+                });
             s.lights.push() = {Convert<N>::point(at), shift, colour(l.colour)};
         }
     }
@@ -369,6 +375,7 @@ private:
         s.shadows = d.shadows && lit && e.lights();
         e.shadow = s.shadows;
         e.see_through = e.shadow && transmits;
+        e.light_surface = e.shadow && s.light_surfaces.count != 0;
         e.eye_surface = !(s.eye_surface.tag == Tag{Tag::none});
         e.tree = true;
         e.grid = settings.levels == 0 && settings.grid > 1;

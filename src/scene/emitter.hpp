@@ -31,6 +31,7 @@ constexpr const char* fields_of(std::string_view table)
         {"textures", "by material: kind; index into the table of that kind"},
         {"lights", "place / 2^shift; shift; colour"},
         {"suns", "direction towards it; colour"},
+        {"light_surfaces", "light; tag of the surface that it lies on; normal there; side"},
     };
     for (const auto& k : known)
         if (k.table == table)

@@ -75,7 +75,7 @@ public:
         Vec3d at = d.view.from;
         for (int round = 0; round < 8; round++) {
             bool moved = false;
-            for_each_near(need + length(at - d.view.from), [&](const Object& o, uint32_t part, double off) {
+            for_each_near(d.view.from, need + length(at - d.view.from), [&](const Object& o, uint32_t part, double off) {
                 Vec3d n, way;
                 double text_off = 0, now = 0;
                 lies_on(d, o, part, d.view.from, off, n, text_off);
@@ -116,7 +116,7 @@ public:
     int64_t eye_surface(uint32_t& fill, Vec3d& outward) const
     {
         int64_t found = -1;
-        for_each_near(0x1p-44 * (frame.radius + largest(d.view.from)), [&](const Object& o, uint32_t part, double off) {
+        for_each_near(d.view.from, 0x1p-44 * (frame.radius + largest(d.view.from)), [&](const Object& o, uint32_t part, double off) {
             double above = 0;
             lies_on(d, o, part, d.view.from, off, outward, above);
             if (fabs(above) > noise(o, outward, d.view.from))
@@ -126,6 +126,21 @@ public:
             return false;
         });
         return found;
+    }
+
+    // Calls f(place, fill, outward normal, side) for the surfaces that hold a light at p, or lie as near as rounding.
+    template <class F>
+    void light_surfaces(const Vec3d& p, F f) const
+    {
+        for_each_near(p, fmax(Steps<N>::off * step(), 0x1p-44 * (frame.radius + largest(p))),
+                      [&](const Object& o, uint32_t part, double off) {
+                          Vec3d outward;
+                          double above = 0;
+                          lies_on(d, o, part, p, off, outward, above);
+                          const bool on = fabs(above) <= 16 * noise(o, outward, p); // it may be computed
+                          f(place_of(o) + part, o.fill, outward, on ? 0 : above > 0 ? 1 : -1);
+                          return true;
+                      });
     }
 
     // Does an object in view span steps enough?
@@ -199,9 +214,9 @@ private:
 
     double half_diagonal() const { return atan(half * sqrt(1 + pow(double(d.view.width) / d.view.height, 2))); }
 
-    // Until it returns false: for each surface no farther than `off` from the text's eye.
+    // Until it returns false: for each surface no farther than `off` from p.
     template <class Visit>
-    void for_each_near(double off, Visit visit) const
+    void for_each_near(const Vec3d& p, double off, Visit visit) const
     {
         for (uint32_t i = 0; i < d.object_count; i++) {
             const Object& o = d.objects[i];
@@ -209,7 +224,7 @@ private:
                 Vec3d outward;
                 double above = 0;
                 const double most = fmin(off, share() * widest(o));
-                if (lies_on(d, o, part, d.view.from, most, outward, above) && !visit(o, part, most))
+                if (lies_on(d, o, part, p, most, outward, above) && !visit(o, part, most))
                     return;
             }
         }

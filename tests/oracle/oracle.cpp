@@ -631,15 +631,32 @@ Hit nearest(const Scene& s, const Ray& ray) {
     return hit;
 }
 
-// The product of `transmit` over all crossings between the ray's start and t_end.
-Real light_through(const Scene& s, const Ray& ray, Real t_end) {
+// Does the surface hold the point, but for what the text's doubles are off?
+bool holds(const Scene& s, int index, Vec p, Real scale) {
+    const Prim& prim = s.prim(index);
+    Real off = Real(1e-14L) * scale;
+    Vec o = p - prim.a;
+    if (prim.kind == Kind::Sphere) return magnitude(length(o) - prim.r0) <= off;
+    Real z = dot(o, prim.g);
+    if (prim.kind == Kind::Cone)
+        return z >= -off && z <= prim.len + off && magnitude(length(o - z * prim.g) - prim.r0 - prim.slope * z) <= off;
+    return magnitude(z) <= off;
+}
+
+// The product of `transmit` over all crossings between the ray's start and t_end. Where a lamp stands there, of a surface
+// that holds it that crossing is taken out, not filtered by how near it is.
+Real light_through(const Scene& s, const Ray& ray, Real t_end, const Vec* lamp = nullptr) {
     Real through = 1, t_max = t_end;
     visit(s, ray, t_max, [&](int i) {
         if (through == 0) return;
         Real t[2];
         int n = crossings(s, i, ray, t);
+        int at_lamp = -1;
+        if (n > 0 && lamp != nullptr && holds(s, i, *lamp, length(*lamp) + length(s.prim(i).a)))
+            at_lamp = n == 2 && magnitude(t[1] - t_end) < magnitude(t[0] - t_end) ? 1 : 0;
+        if (at_lamp >= 0 && magnitude(t[at_lamp] - t_end) > Real(1e-6L) * t_end) at_lamp = -1;  // that is beyond an end
         for (int k = 0; k < n; ++k)
-            if (valid(s, i, ray, t[k]) && t[k] < t_end - s.t_min)
+            if (k != at_lamp && valid(s, i, ray, t[k]) && t[k] < t_end - s.t_min)
                 through *= s.material(i).transmit;
         if (through == 0) t_max = 0;
     });
@@ -767,7 +784,7 @@ Vec trace(const Scene& s, const Settings& set, const Ray& ray, int depth, Real w
         Vec l = light.sun ? to : to / distance;
         Real nl = dot(n, l);
         if (!(nl > 0)) continue;
-        Real through = s.shadows ? light_through(s, {q, l, hit.prim}, distance) : Real(1);
+        Real through = s.shadows ? light_through(s, {q, l, hit.prim}, distance, light.sun ? nullptr : &light.at) : Real(1);
         if (through == 0) continue;
         Vec r = 2 * nl * n - l;
         Real rv = -dot(r, d);

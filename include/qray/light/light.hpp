@@ -9,6 +9,8 @@ namespace qray {
 // direction, and a distance beyond which nothing is in its way.
 template <class N>
 struct Light {
+    static constexpr bool has_place = true; // it may lie on a surface
+
     Point<N> at;
     int32_t shift; // in [0, 30]; 0 in floating point
     Rgb<N> colour;

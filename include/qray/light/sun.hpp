@@ -7,6 +7,8 @@ namespace qray {
 
 template <class N>
 struct Sun {
+    static constexpr bool has_place = false;
+
     Direction<N> from; // unit, towards the light
     Rgb<N> colour;
 };

@@ -65,6 +65,7 @@
     X(, mirror, )      /* rays of higher depth */ \
     X(, transmit, ) \
     X(, eye_surface, ) /* the eye lies on a surface */ \
+    X(, light_surface, ) /* so does a light */ \
     X(, grid, )        /* several samples a pixel, */ \
     X(, adaptive, )    /* or as many as it takes */ \
     X(, tree, )        /* over the shapes */
@@ -78,7 +79,8 @@
     QRAY_SURFACES(X) \
     X(TextureOf, texture(), textures) /* by material */ \
     QRAY_TEXTURES(X) \
-    QRAY_LIGHTS(X)
+    QRAY_LIGHTS(X) \
+    X(LightSurface, light_surface, light_surfaces)
 
 namespace qray {
 

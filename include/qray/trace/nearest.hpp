@@ -73,6 +73,29 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
     }
 }
 
+// How often a ray crosses a shape before a light at `distance`. Where lights lie on surfaces, `light` is its number.
+template <class N, Effects E, class S>
+QRAY_INLINE constexpr int crossings_before(const Scene<N, E>& scene, const S& shape, const Ray<N>& ray,
+                                           typename N::Length distance)
+{
+    return crossings<!E.tree>(shape, corners_of(scene), ray, distance);
+}
+template <class N, Effects E, class S>
+constexpr int crossings_before(const Scene<N, E>& scene, const S& shape, const Ray<N>& ray, typename N::Length distance,
+                               uint32_t light)
+{
+    for (uint32_t i = 0; i < scene.light_surfaces.count; i++) {
+        const LightSurface<N>& surface = scene.light_surfaces[i];
+        if (surface.light != light || !(surface.tag == shape.tag))
+            continue;
+        const Ray<N> back = from_light(surface, scene.lights[light].at, ray);
+        const int at_light = back.outward ? surface.side < 0 : surface.side > 0;
+        // Between two points on one surface, which is flat or convex, the way does not cross it.
+        return at_light + (ray.from == shape.tag ? 0 : crossings(shape, corners_of(scene), back, distance));
+    }
+    return crossings_before(scene, shape, ray, distance);
+}
+
 // Keeps the hit on a shape, if there is one before the last.
 template <class N, Effects E, class S>
 QRAY_INLINE constexpr void keep_nearest(const Scene<N, E>& scene, const Ray<N>& ray, const S& shape, Kind kind,

@@ -31,8 +31,9 @@ struct Veils {
 // The share of light that comes through all surfaces strictly between the ray's origin and `distance`:
 // multiplied in the order of their places, so that rounding does not depend on the order in which they are
 // found.
-template <class N, Effects E>
-constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance)
+template <class N, Effects E, class... Light>
+constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance,
+                                         Light... light)
 {
     auto through = N::one;
     const auto amount = [&scene](Tag tag) { return scene.transmits[tag.material()].amount; };
@@ -44,7 +45,7 @@ constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>&
         for_each_candidate(scene, ray, [distance] { return distance; }, [&](const auto& shape, Kind, uint32_t) {
             if (!first && shape.tag.place() <= last)
                 return false;
-            const int times = crossings<!E.tree>(shape, corners_of(scene), ray, distance);
+            const int times = crossings_before(scene, shape, ray, distance, light...);
             if (times != 0) {
                 blocked = amount(shape.tag) == N::zero;
                 found.add({shape.tag, times});

@@ -6,13 +6,14 @@
 namespace qray {
 
 // Is any surface strictly between the ray's origin and `distance`?
-template <class N, Effects E>
-QRAY_INLINE constexpr bool light_blocked(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance)
+template <class N, Effects E, class... Light>
+QRAY_INLINE constexpr bool light_blocked(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance,
+                                         Light... light)
 {
     bool blocked = false;
     for_each_candidate(scene, ray, [distance] { return distance; },
                        [&](const auto& shape, Kind, uint32_t) QRAY_INLINE_LAMBDA {
-                           blocked = crossings<!E.tree>(shape, corners_of(scene), ray, distance) != 0;
+                           blocked = crossings_before(scene, shape, ray, distance, light...) != 0;
                            return blocked;
                        });
     return blocked;

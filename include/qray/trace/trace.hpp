@@ -120,9 +120,10 @@ struct Seen {
 };
 
 // Adds the light that comes along l, unless it is blocked.
-template <class N, Effects E, class Count>
+template <class N, Effects E, class Count, class... Light>
 QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen, const Direction<N>& l,
-                                  typename N::Length distance, const Rgb<N>& colour, Gathered<N, E>& sum, Count& count)
+                                  typename N::Length distance, const Rgb<N>& colour, Gathered<N, E>& sum, Count& count,
+                                  Light... light)
 {
     const Surface<N>& s = seen.surface;
     const auto n_l = N::unit(dot<N>(s.normal, l));
@@ -147,13 +148,13 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
             count(RayKind::shadow);
             const Ray<N> to_light = leaving<N, E>(s, seen.kind, seen.tag, l, true);
             if constexpr (E.see_through) {
-                const auto through = light_through(scene, to_light, distance);
+                const auto through = light_through(scene, to_light, distance, light...);
                 if (through == N::zero)
                     return;
                 diffuse = N::unit(diffuse * through);
                 highlight = N::unit(highlight * through);
             } else {
-                if (light_blocked(scene, to_light, distance))
+                if (light_blocked(scene, to_light, distance, light...))
                     return;
             }
         }
@@ -172,7 +173,11 @@ QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N>
         for (uint32_t i = 0; i < scene.table.count; i++) { \
             Direction<N> l{}; \
             typename N::Length distance{}; \
-            if (towards(scene.table[i], seen.surface.point, l, distance)) \
+            if (!towards(scene.table[i], seen.surface.point, l, distance)) \
+                continue; \
+            if constexpr (E.light_surface && Type<N>::has_place) \
+                gather(scene, seen, l, distance, scene.table[i].colour, sum, count, i); \
+            else \
                 gather(scene, seen, l, distance, scene.table[i].colour, sum, count); \
         }
     QRAY_LIGHTS(QRAY_GATHER)
