@@ -189,6 +189,29 @@ QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N>
     return light;
 }
 
+// Does the ray only touch an edge of a body, where it meets two faces at the same t? It then enters by one of them and leaves
+// by the other, and what is between is nothing; but the first in the file is met, and may be the one that it leaves. Where t
+// has few bits that happens along a whole outline, and glass would keep rays that never were in it. Faces in one plane do not
+// share an edge.
+template <class N, Effects E>
+QRAY_NOINLINE constexpr bool touches_edge(const Scene<N, E>& scene, Ray<N> ray, Direction<N> left, Tag tag,
+                                          typename N::Length at)
+{
+    constexpr auto parallel = N::fraction(1023, 1024);
+    bool touches = false;
+    for_each_shape(scene, [&](const auto& shape, Kind, uint32_t) {
+        if constexpr (shape.has_corners) {
+            typename N::Length t{};
+            Local<N> local{};
+            const auto cosine = N::unit(dot<N>(left, shape.normal));
+            touches = !(shape.tag == tag) && dot<N>(shape.normal, ray.direction) < typename N::Cosine{} && cosine < parallel
+                && -cosine < parallel && intersect(shape, corners_of(scene), ray, at, t, local);
+        }
+        return touches;
+    });
+    return touches;
+}
+
 // A ray that waits its turn.
 template <class N>
 struct Waiting {
@@ -244,7 +267,15 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count)
                                 ? dot<N>(ray.direction, s.geometric) < typename N::Cosine{}
                                 : !s.turned;
                             Direction<N> bent{};
-                            if (refracted<N>(ray.direction, s.normal, s.n_d, entering ? glass.into : glass.out, bent)) {
+                            bool goes_through =
+                                refracted<N>(ray.direction, s.normal, s.n_d, entering ? glass.into : glass.out, bent);
+                            if constexpr (NarrowFixed<N> && E.corners())
+                                if (!goes_through && !entering && (ray.outward || ray.from == Tag{Tag::none})
+                                    && touches_edge(scene, ray, parts_of(s.geometric), hit.tag, hit.t)) {
+                                    bent = ray.direction;
+                                    goes_through = true;
+                                }
+                            if (goes_through) {
                                 const auto w = N::unit(weight * glass.amount);
                                 if (w >= scene.cutoff.value && w > N::zero) {
                                     count(RayKind::refracted);
