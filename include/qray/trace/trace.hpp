@@ -182,8 +182,13 @@ QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N>
         }
     QRAY_LIGHTS(QRAY_GATHER)
 #undef QRAY_GATHER
-    const Vec<typename N::Unit> m = colour_at(scene, seen.material, seen.surface.point);
-    Rgb<N> light = filtered<N>(sum.matte, m);
+    Rgb<N> light{};
+    if constexpr (N::is_fixed) { // a copy costs floating point registers, and saves others
+        const Vec<typename N::Unit> m = colour_at(scene, seen.material, seen.surface.point);
+        light = filtered<N>(sum.matte, m);
+    } else {
+        light = filtered<N>(sum.matte, colour_at(scene, seen.material, seen.surface.point));
+    }
     if constexpr (E.highlight)
         light = light + sum.highlight.value;
     return light;
