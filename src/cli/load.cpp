@@ -16,10 +16,14 @@ void warn(const char* scene, const scene::Warning& w)
 {
     if (w.count == 0)
         return;
-    fprintf(stderr, "%s:%u: warning: %s", scene::ShownName(scene).text, w.line, w.text);
+    fprintf(stderr, "%s:%u:", scene::ShownName(scene).text, w.line);
+    if (w.column != 0)
+        fprintf(stderr, "%u:", w.column);
+    fprintf(stderr, " warning: %s", w.text);
     if (w.count > 1)
-        fprintf(stderr, "; %u objects in all", w.count);
-    fputc('\n', stderr);
+        fprintf(stderr, w.column != 0 ? " (and so for %u more)\n" : "; %u objects in all\n", w.count - (w.column != 0));
+    else
+        fputc('\n', stderr);
 }
 
 } // namespace
@@ -53,12 +57,7 @@ int load(const Options& options, const Renderer& renderer, const char* out, Buil
         return 1;
     }
     if (!options.quiet) {
-        if (loaded.clamped != 0)
-            fputs(loaded.first_clamped.text, stderr);
-        if (loaded.clamped > 1)
-            fprintf(stderr, " (and so for %u more)", loaded.clamped - 1);
-        if (loaded.clamped != 0)
-            fputc('\n', stderr);
+        warn(options.scene, loaded.clamped);
         warn(options.scene, loaded.empty);
         warn(options.scene, loaded.nonplanar);
         warn(options.scene, built.lost);

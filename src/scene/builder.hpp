@@ -27,7 +27,7 @@ public:
             return false;
         }
         s.vanished = 0;
-        s.lost.clear();
+        s.lost = {};
         fit();
         if (!fine_enough(error))
             return false;
@@ -71,7 +71,7 @@ public:
     void leave_out(const Object& o)
     {
         s.vanished++;
-        s.lost.note(o.line, "a %s too small for steps of %.3g, left out", name_of(o), resolution.step());
+        s.lost.note({o.line, 0}, "a %s too small for steps of %.3g, left out", name_of(o), resolution.step());
     }
 
     // Smaller than the step by which a ray leaves a surface, a ball cannot hold what starts inside of it.

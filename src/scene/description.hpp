@@ -15,6 +15,7 @@
 
 #include <qray/scene/lists.hpp>
 
+#include "lexer.hpp"
 #include "room.hpp"
 #include "vec3d.hpp"
 
@@ -70,17 +71,17 @@ struct Object {
     uint32_t line = 0;              // of the text
 };
 
-// What is not drawn as the text has it: so many objects, and the first of them.
+// What is not drawn as the text has it: how often, where first, and what is said of that.
 struct Warning {
-    uint32_t count, line;
+    uint32_t count, line, column; // of an object its line alone: the column is 0
     char text[224];
 
-    void clear() { count = line = 0; }
-    [[gnu::format(printf, 3, 4)]] void note(uint32_t at, const char* format, ...)
+    [[gnu::format(printf, 3, 4)]] void note(Position place, const char* format, ...)
     {
-        if (count++ != 0 && line <= at)
+        if (count++ != 0 && line <= place.line)
             return;
-        line = at;
+        line = place.line;
+        column = place.column;
         va_list values;
         va_start(values, format);
         vsnprintf(text, sizeof text, format, values);
@@ -109,8 +110,7 @@ struct Description {
     uint32_t dropped = 0; // objects and triangles of patches without extent, left out
     Warning empty{};      // of these, what has a radius of 0
     Warning nonplanar{};  // polygons of which a corner is off the plane by more than 1 % of their size
-    uint32_t clamped = 0; // numbers of `f` outside of their ranges
-    Error first_clamped;  // says so of the first of them
+    Warning clamped{};    // numbers of `f` outside of their ranges
     char comment[256] = {}; // the first comment that says something, without its '#'; else empty
     Room room; // the caller's, for what follows
     Object* objects = nullptr;

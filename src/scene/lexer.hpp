@@ -37,22 +37,21 @@ public:
     const Token& next();
 
     // Makes next() return its latest token once more.
-    void unread() { held_ = true; }
+    void unread() { held = true; }
 
     // The first comment so far that says something, without its '#' and the blanks around it.
-    std::string_view comment() const { return comment_; }
+    std::string_view comment() const { return first_comment; }
 
 private:
     void skip_blanks();
-    void skip_comment();
 
-    const char* cursor_;
-    const char* line_start_;
-    const char* end_;
-    uint32_t line_ = 1;
-    bool held_ = false;
-    Token token_;
-    std::string_view comment_;
+    const char* cursor;
+    const char* line_start;
+    const char* end;
+    uint32_t line = 1;
+    bool held = false;
+    Token token;
+    std::string_view first_comment;
 };
 
 // "UTF-16" or "UTF-32" where the text's first bytes are a byte order mark of that, or of a character in it; else null.

@@ -89,7 +89,7 @@ public:
                 at = at + way * (side * most - now);
                 moved = true;
                 if (round == 7)
-                    lost.note(o.line, "the eye, %.3g off a %s, falls onto it where steps are %.3g", fabs(text_off),
+                    lost.note({o.line, 0}, "the eye, %.3g off a %s, falls onto it where steps are %.3g", fabs(text_off),
                               name_of(o), step());
                 return true;
             });
@@ -108,7 +108,7 @@ public:
         const double moved = sqrt(2 * seen_from / r) - sqrt(2 * off / r)
             + Steps<N>::rough * step() / sqrt(2 * seen_from * r);
         if (moved > (o.kind == Kind::cone && o.ra != o.rb ? Steps<N>::cone_horizon : Steps<N>::horizon) * 2 * half)
-            lost.note(o.line, "the eye, %.3g off a %s, sees its horizon from %.3g off, where steps are %.3g", off,
+            lost.note({o.line, 0}, "the eye, %.3g off a %s, sees its horizon from %.3g off, where steps are %.3g", off,
                       name_of(o), seen_from, step());
     }
 
@@ -159,9 +159,9 @@ public:
         if (picture >= Steps<N>::picture * error)
             return;
         if (2 * r < picture)
-            lost.note(o.line, "a %s spans only %.3g steps of %.3g", name_of(o), 2 * r / error, error);
+            lost.note({o.line, 0}, "a %s spans only %.3g steps of %.3g", name_of(o), 2 * r / error, error);
         else
-            lost.note(o.line, "at a %s the picture spans only %.3g steps of %.3g", name_of(o), picture / error, error);
+            lost.note({o.line, 0}, "at a %s the picture spans only %.3g steps of %.3g", name_of(o), picture / error, error);
     }
 
     // Which surfaces lie so close that what is between them is lost? `sorted` has room for all objects.
@@ -347,7 +347,7 @@ private:
             return;
         if (f.transmit == 0 && (clear(g) || in_front(a, b)) && same(a, b))
             return;
-        lost.note(b.line, "a %s falls together with another surface, that of line %u, %.3g off, where steps are %.3g",
+        lost.note({b.line, 0}, "a %s falls together with another surface, that of line %u, %.3g off, where steps are %.3g",
                   name_of(b), a.line, off, step());
     }
     bool in_front(const Object& a, const Object& b) const

@@ -61,7 +61,7 @@ inline void warn_of_nonplanar(Description& d, const Object& o)
     }
     const double size = length(box.high - box.low);
     if (off > 0.01 * size)
-        d.nonplanar.note(o.line, "a polygon with a corner %.3g off its plane, %.3g %% of its size", off, 100 * off / size);
+        d.nonplanar.note({o.line, 0}, "a polygon with a corner %.3g off its plane, %.3g %% of its size", off, 100 * off / size);
 }
 
 inline void add_corners(Box& box, const Description& d, const Object& o)
