@@ -4,7 +4,7 @@
 #include <pthread.h>
 #include <sched.h>
 #include <stdio.h>
-#include <unistd.h>
+#include <time.h>
 
 #include <atomic>
 
@@ -20,11 +20,45 @@ constexpr size_t stack_bytes = 256 << 10; // of a thread: an eighth is used, and
 uint32_t least(uint32_t a, uint32_t b) { return a < b ? a : b; }
 uint32_t most(uint32_t a, uint32_t b) { return a > b ? a : b; }
 
+// How much is done, and the time left, in one line on standard error that is wiped at the end.
+class Progress {
+public:
+    explicit Progress(bool wanted) : shown(wanted), start(wanted ? now() : 0), next(start + 0.5) {}
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    ~Progress()
+    {
+        if (dirty)
+            fputs("\r                                \r", stderr);
+    }
+
+    void update(uint32_t done, uint32_t total)
+    {
+        const double time = shown ? now() : 0;
+        if (!shown || time < next || done == 0)
+            return;
+        next = time + 0.2;
+        dirty = true;
+        const unsigned long left = static_cast<unsigned long>((time - start) / done * (total - done) + 0.5);
+        fprintf(stderr, "\r%3u %%, ", static_cast<unsigned>(uint64_t{100} * done / total));
+        if (left < 60)
+            fprintf(stderr, "%lu s left   ", left);
+        else if (left < 3600)
+            fprintf(stderr, "%lu min %lu s left   ", left / 60, left % 60);
+        else
+            fprintf(stderr, "%lu h %lu min left   ", left / 3600, left / 60 % 60);
+    }
+
+private:
+    bool shown, dirty = false;
+    double start, next;
+};
+
 // A block of rows has a number from the top, and the slot of that number modulo the slots. It may be drawn once the
 // block before in its slot is written, which the next blocks to be written never wait for.
 class Drawing {
 public:
-    Drawing(const Renderer& with, const Built& picture, uint32_t threads, Output& to, Progress& shown)
+    Drawing(const Renderer& with, const Built& picture, uint32_t threads, Output& to, bool shown)
         : renderer(with), height(picture.height), stride(picture.width * 3), output(to), progress(shown)
     {
         // Small blocks, so that no thread waits long for another at the end; of some pixels each, to pay for
@@ -100,7 +134,7 @@ private:
     const Renderer& renderer;
     const uint32_t height, stride;
     Output& output;
-    Progress& progress;
+    Progress progress;
     uint32_t block_rows, blocks, slots;
     scene::Room pool;
     std::atomic<uint32_t> next{0};
@@ -119,6 +153,13 @@ void* work(void* drawing)
 
 } // namespace
 
+double now()
+{
+    timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
 uint32_t thread_count(uint32_t asked)
 {
     if (asked != 0)
@@ -128,8 +169,8 @@ uint32_t thread_count(uint32_t asked)
     return least(most(static_cast<uint32_t>(n), 1), max_threads);
 }
 
-bool draw_picture(const Renderer& renderer, const Built& picture, uint32_t threads, Output& output,
-                  Progress& progress, RayCounts& counts)
+bool draw_picture(const Renderer& renderer, const Built& picture, uint32_t threads, Output& output, bool progress,
+                  RayCounts& counts)
 {
     Drawing drawing(renderer, picture, threads, output, progress);
     if (!drawing.has_memory())

@@ -86,14 +86,4 @@ bool is_scene_file(const char* path)
         && other.st_ino == scene_file.st_ino;
 }
 
-bool default_output(const char* scene, const char* suffix, char* out, size_t size)
-{
-    const char* slash = strrchr(scene, '/');
-    const char* name = slash != nullptr ? slash + 1 : scene;
-    const char* dot = strrchr(name, '.');
-    const size_t length = dot != nullptr && dot != name ? static_cast<size_t>(dot - name) : strlen(name);
-    return length < size
-        && snprintf(out, size, "%.*s%s", static_cast<int>(length), name, suffix) < static_cast<int>(size);
-}
-
 } // namespace qray::cli

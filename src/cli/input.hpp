@@ -11,7 +11,4 @@ bool read_scene(const char* path, scene::Description& description, scene::Error&
 // Is `path` ("-": standard output) the very file that read_scene() read?
 bool is_scene_file(const char* path);
 
-// "folder/name.nff" and ".ppm" give "name.ppm". False where that does not fit.
-bool default_output(const char* scene, const char* suffix, char* out, size_t size);
-
 } // namespace qray::cli

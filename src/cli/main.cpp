@@ -1,9 +1,7 @@
-// qray: draws a scene, or hands over to one of its other commands.
+// qray: draws a scene, or compiles it to a C++ header that is drawn without an operating system.
 #include "../scene/reader.hpp"
-#include "compile.hpp"
-#include "describe.hpp"
 #include "draw.hpp"
-#include "load.hpp"
+#include "input.hpp"
 #include "stats.hpp"
 
 #include <errno.h>
@@ -16,11 +14,66 @@ namespace qray::cli {
 
 namespace {
 
-bool draw(const Renderer& renderer, const Built& built, uint32_t threads, bool quiet, Output& output,
-          RayCounts& counts)
+scene::Description description;
+
+const char* file_part(const char* path)
 {
-    Progress progress(!quiet && isatty(STDERR_FILENO));
-    return draw_picture(renderer, built, threads, output, progress, counts);
+    const char* const slash = strrchr(path, '/');
+    return slash != nullptr ? slash + 1 : path;
+}
+
+void warn(const char* name, const scene::Warning& w)
+{
+    if (w.count == 0)
+        return;
+    const bool number = w.column != 0; // else an object
+    fprintf(stderr, "%s:%u:", scene::ShownName(name).text, w.line);
+    if (number)
+        fprintf(stderr, "%u:", w.column);
+    fprintf(stderr, " warning: %s", w.text);
+    if (w.count > 1)
+        fprintf(stderr, number ? " (and so for %u more)" : "; %u objects in all", w.count - number);
+    fputc('\n', stderr);
+}
+
+// The output's name: as given, else the scene's in this folder, with another end, or standard output. Null, and a message,
+// where that is too long.
+const char* output_name(const Options& options, const char* end)
+{
+    static char own[260];
+    if (options.output != nullptr)
+        return options.output;
+    if (strcmp(options.scene, "-") == 0)
+        return "-";
+    const char* const name = file_part(options.scene);
+    const char* const dot = strrchr(name, '.');
+    const size_t length = dot != nullptr && dot != name ? static_cast<size_t>(dot - name) : strlen(name);
+    if (length < sizeof own
+        && snprintf(own, sizeof own, "%.*s%s", static_cast<int>(length), name, end) < static_cast<int>(sizeof own))
+        return own;
+    bad_options("'%s' is too long a name to make another from; give '-o FILE'", scene::ShownName(options.scene).text);
+    return nullptr;
+}
+
+// Reads the scene and builds it. Returns `go_on`, or the status to exit with, having printed why: also where `out` is the
+// scene itself.
+int load(const Options& options, const Renderer& renderer, const char* out, Built& built)
+{
+    scene::Error error;
+    if (!read_scene(options.scene, description, error)) {
+        fprintf(stderr, "%s\n", error.text);
+        return 1;
+    }
+    if (is_scene_file(out))
+        return bad_options("'%s' is the scene itself; give another name with '-o FILE'", scene::ShownName(out).text);
+    if (!renderer.build(description, options.settings, built, error)) {
+        fprintf(stderr, "%s: %s\n", scene::ShownName(options.scene).text, error.text);
+        return 1;
+    }
+    if (!options.quiet)
+        for (const scene::Warning* w : {&description.clamped, &description.empty, &description.nonplanar, &built.lost})
+            warn(options.scene, *w);
+    return go_on;
 }
 
 // What makes other formats of a PPM, by the ends of their names.
@@ -46,16 +99,8 @@ int check_format(const char* out)
     return go_on;
 }
 
-int draw_main(int argc, char** argv)
+int draw(const Options& options, const char* out)
 {
-    Options options;
-    const int status = read_options(Command::draw, argc, argv, options);
-    if (status != go_on)
-        return status;
-
-    const char* out = output_name(options, ".ppm");
-    if (out == nullptr)
-        return 2;
     if (const int format = check_format(out); format != go_on)
         return format;
     if (strcmp(out, "-") == 0 && isatty(STDOUT_FILENO))
@@ -64,22 +109,48 @@ int draw_main(int argc, char** argv)
     const double begin = options.stats ? now() : 0;
     Built built{};
     const Renderer& renderer = fastest_renderer(options.number);
-    const int loaded = load(options, renderer, out, built);
-    if (loaded != go_on)
+    if (const int loaded = load(options, renderer, out, built); loaded != go_on)
         return loaded;
 
     Output output;
     const uint32_t threads = thread_count(options.threads);
     const double start = options.stats ? now() : 0;
     RayCounts counts;
-    if (!output.open(out) || !draw(renderer, built, threads, options.quiet, output, counts) || !output.commit()) {
-        output.report();
-        return 1;
-    }
-    if (options.stats) {
-        print_stats(options, description(), built, threads, counts, {start - begin, now() - start});
-    }
+    const bool shown = !options.quiet && isatty(STDERR_FILENO);
+    if (!output.open(out) || !draw_picture(renderer, built, threads, output, shown, counts) || !output.commit())
+        return output.report();
+    if (options.stats)
+        print_stats(options, description, built, threads, counts, {start - begin, now() - start});
     return 0;
+}
+
+int compile(const Options& options, const char* out)
+{
+    Built built{};
+    const int number = static_cast<int>(options.number);
+    const Renderer& renderer = *renderers[number];
+    if (const int loaded = load(options, renderer, out, built); loaded != go_on)
+        return loaded;
+
+    // What the header was made from, in one line.
+    const scene::Settings& settings = options.settings;
+    char sampling[64], origin[512];
+    if (settings.levels != 0)
+        snprintf(sampling, sizeof sampling, "adaptive in %u levels from %g", settings.levels, settings.threshold);
+    else
+        snprintf(sampling, sizeof sampling, "%u sample%s a pixel", settings.grid * settings.grid,
+                 settings.grid == 1 ? "" : "s");
+    snprintf(origin, sizeof origin, "%s by qray compile: %s, %u x %u pixels, %s, depth %u, cutoff %g",
+             scene::ShownName(file_part(options.scene)).text, number_names[number], built.width, built.height, sampling,
+             settings.depth, settings.cutoff);
+
+    Output output;
+    if (!output.open(out))
+        return output.report();
+    scene::Source source(
+        [](void* to, const char* text, size_t size) { return static_cast<Output*>(to)->write(text, size); }, &output);
+    renderer.emit(source, description.comment, origin, options.name);
+    return source.finish() && output.commit() ? 0 : output.report();
 }
 
 // So that no file that is opened later takes the place of one of the three, and is written to in its name.
@@ -92,11 +163,15 @@ void keep_standard_files()
 
 int run(int argc, char** argv)
 {
-    if (argc > 1 && strcmp(argv[1], "compile") == 0)
-        return compile_main(argc - 1, argv + 1);
     if (argc == 2 && strcmp(argv[1], "--describe") == 0)
         return describe();
-    return draw_main(argc, argv);
+    const bool compiles = argc > 1 && strcmp(argv[1], "compile") == 0;
+    Options options;
+    if (const int status = read_options(compiles ? Command::compile : Command::draw, argc - compiles, argv + compiles, options);
+        status != go_on)
+        return status;
+    const char* const out = output_name(options, compiles ? ".hpp" : ".ppm");
+    return out == nullptr ? 2 : compiles ? compile(options, out) : draw(options, out);
 }
 
 } // namespace

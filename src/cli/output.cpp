@@ -87,14 +87,15 @@ void catch_signals()
 
 bool Output::fail(const char* what, int error)
 {
-    failed_ = what;
-    error_ = error;
+    action = what;
+    reason = error;
     return false;
 }
 
-void Output::report() const
+int Output::report() const
 {
-    fprintf(stderr, "%s: cannot %s: %s\n", scene::ShownName(name_).text, failed_, strerror(error_));
+    fprintf(stderr, "%s: cannot %s: %s\n", scene::ShownName(shown).text, action, strerror(reason));
+    return 1;
 }
 
 Output::~Output()
@@ -106,16 +107,16 @@ Output::~Output()
 
 bool Output::open(const char* name)
 {
-    name_ = name;
+    shown = name;
     if (strcmp(name, "-") == 0) {
-        file_ = STDOUT_FILENO;
+        file = STDOUT_FILENO;
         return true;
     }
     struct stat old;
     const bool exists = stat(name, &old) == 0;
     if (exists && !S_ISREG(old.st_mode)) {
-        file_ = ::open(name, O_WRONLY | O_CLOEXEC);
-        return file_ >= 0 || fail("open", errno);
+        file = ::open(name, O_WRONLY | O_CLOEXEC);
+        return file >= 0 || fail("open", errno);
     }
     // Behind a link, the file itself is replaced; and one that must not be written to is not.
     if (snprintf(target, sizeof target, "%s", name) >= static_cast<int>(sizeof target))
@@ -127,20 +128,20 @@ bool Output::open(const char* name)
         return fail("open", ENAMETOOLONG);
     }
     unlink(temporary); // left by an earlier process of that number
-    file_ = ::open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file_ < 0) {
+    file = ::open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0) {
         const int error = errno;
         temporary[0] = 0;
         return fail("open", error);
     }
-    return !exists || fchmod(file_, old.st_mode & 07777) == 0 || fail("open", errno);
+    return !exists || fchmod(file, old.st_mode & 07777) == 0 || fail("open", errno);
 }
 
 bool Output::write(const void* bytes, size_t size)
 {
     const char* from = static_cast<const char*>(bytes);
     while (size != 0) {
-        const ssize_t put = ::write(file_, from, size);
+        const ssize_t put = ::write(file, from, size);
         if (put < 0 && errno != EINTR)
             return fail("write", errno);
         from += put > 0 ? put : 0;
@@ -151,7 +152,7 @@ bool Output::write(const void* bytes, size_t size)
 
 bool Output::commit()
 {
-    if (close(file_) != 0)
+    if (close(file) != 0)
         return fail("write", errno);
     if (temporary[0] == 0)
         return true;

@@ -23,14 +23,13 @@ public:
     bool write(const void* bytes, size_t size);
     bool commit();
     bool fail(const char* what, int error); // "cannot `what`: ", with the error's text; returns false
-    void report() const;
+    int report() const; // 1
 
 private:
-
-    const char* name_ = nullptr;
-    const char* failed_ = "";
-    int error_ = 0;
-    int file_ = -1;
+    const char* shown = nullptr;
+    const char* action = "";
+    int reason = 0;
+    int file = -1;
 };
 
 } // namespace qray::cli

@@ -1,12 +1,19 @@
 // A number system as the command sees it: it builds a scene into storage of its own, then draws rows.
 #pragma once
 
+#include <qray/picture/render.hpp>
+
+#include "../scene/builder.hpp"
 #include "../scene/emitter.hpp"
-#include "kernel.hpp"
 #include "memory.hpp"
 #include "options.hpp"
 
 namespace qray::cli {
+
+struct RayCounts {
+    uint64_t rays[4] = {};
+    void operator()(RayKind kind) { rays[static_cast<int>(kind)]++; }
+};
 
 // What build() made of the scene.
 struct Built {
@@ -20,7 +27,7 @@ struct Built {
 struct Renderer {
     // False, and a reason without a place, where the scene does not fit the number system.
     bool (*build)(const scene::Description&, const scene::Settings&, Built&, scene::Error&);
-    // As Kernel::rows, of the scene that was built last; by any number of threads.
+    // Of the scene that was built last, rows first to last - 1 into rgb, 3 width bytes a row; by any number of threads.
     void (*rows)(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts);
     // That scene as a C++ header; see Emitter::emit.
     void (*emit)(scene::Source& out, const char* title, const char* origin, const char* name);
@@ -34,6 +41,26 @@ extern const Renderer q32_lanes_renderer __attribute__((weak)), float_lanes_rend
 // What draws the fastest on this processor. Its scene's tables are not those of a compiled scene.
 const Renderer& fastest_renderer(Number number);
 
+// Balls on a checkered floor, with mirrors.
+constexpr Effects balls_effects()
+{
+    Effects e;
+    e.sphere = e.disc = e.checker = e.light = e.shadow = e.highlight = e.mirror = e.tree = true;
+    return e;
+}
+
+// Spheres, cylinders and polygons with glass and mirrors, untextured: the entities of NFF but for patches.
+constexpr Effects nff_effects()
+{
+    Effects e;
+    e.sphere = e.cone = e.polygon = e.light = e.shadow = e.see_through = e.highlight = e.fractional_shine = true;
+    e.mirror = e.transmit = e.tree = true;
+    e.depth = scene::Settings::max_depth;
+    return e;
+}
+
+static_assert(scene::Settings::max_levels <= max_adaptive_levels);
+
 template <class N>
 scene::Storage<N>& storage_of()
 {
@@ -41,8 +68,41 @@ scene::Storage<N>& storage_of()
     return storage;
 }
 
+template <class N, Effects E>
+void rows_of(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts)
+{
+    const Scene<N, E> s = storage_of<N>().template view<E>();
+    for (uint32_t j = first; j < last; j++)
+        render_row<Rgb888>(s, j, rgb + size_t{j - first} * s.camera.width * 3, counts);
+}
+
+// With all that it calls in one function: for tracers that are small.
+template <class N, Effects E>
+[[gnu::flatten]] void flat_rows_of(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts)
+{
+    rows_of<N, E>(first, last, rgb, counts);
+}
+
 template <class N>
 struct RendererOf {
+    // The tracers that are built ahead, from the tightest to the one for everything: the first that can draw the scene is
+    // taken. All give the same bytes. float's and q32's are built a second time with vectors in registers (lanes_*.cpp).
+    struct Kernel {
+        const char* name;
+        Effects effects;
+        void (*rows)(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts);
+    };
+    static const Kernel& kernel()
+    {
+        constexpr Effects balls = balls_effects(), nff = nff_effects(), all = everything(scene::Settings::max_depth);
+        static constexpr Kernel kernels[] = {
+            {"balls", balls, flat_rows_of<N, balls>}, {"nff", nff, rows_of<N, nff>}, {"everything", all, rows_of<N, all>}};
+        const Kernel* k = kernels;
+        while (!k->effects.holds(storage_of<N>().effects))
+            k++;
+        return *k;
+    }
+
     static bool build(const scene::Description& description, const scene::Settings& settings, Built& built,
                       scene::Error& error)
     {
@@ -54,12 +114,12 @@ struct RendererOf {
         if (!scene::Builder<N>(description, settings, storage).build(error))
             return false;
         built = {storage.camera.width, storage.camera.height, storage.effects, storage.vanished,
-                 storage.lost, Kernel<N>::name(storage)};
+                 storage.lost, kernel().name};
         return true;
     }
     static void rows(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts)
     {
-        Kernel<N>::rows(storage_of<N>(), first, last, rgb, counts);
+        kernel().rows(first, last, rgb, counts);
     }
     static void emit(scene::Source& out, const char* title, const char* origin, const char* name)
     {
