@@ -188,7 +188,7 @@ QRAY_INLINE constexpr bool intersect(const Cone<N>& s, const Corners<N>&, const 
     if (meetings(s, ray, limit, both, local, tau) == 0)
         return false;
     t = both[0];
-    local.along = tau[0];
+    local.offset = tau[0];
     return true;
 }
 
@@ -210,7 +210,7 @@ template <class N>
 constexpr void surface_of(const Cone<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length, const Local<N>& local,
                           Point<N>& point, Direction<N>& n)
 {
-    const Point<N> w = local.near + along<N>(local.along, ray.direction);
+    const Point<N> w = local.near + along<N>(local.offset, ray.direction);
     const auto z = N::length(dot<N>(w, s.axis));
     const Point<N> across = w - along<N>(z, s.axis);
     const auto rho = s.rho0 + N::length(s.sine * z);

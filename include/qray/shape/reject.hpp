@@ -101,7 +101,7 @@ struct RejectRay<N> {
     QRAY_INLINE constexpr bool misses_ball(const Point<N>& centre, typename N::Length radius) const
     {
         const Point<N> v = centre - ray.origin;
-        const int32_t b = along(v, ray.direction); // 2^-22, up to 3 too low
+        const int32_t b = component(v, ray.direction); // 2^-22, up to 3 too low
         // |v|^2 - b^2 in 2^-16: |v|^2 up to 3 too low; b^2, of up to 12 2^-24 (and 128) each, off by up to 13.
         const int32_t b24 = b * 4;
         const int32_t square = high_dot(v.x.raw, v.y.raw, v.z.raw, v.x.raw, v.y.raw, v.z.raw);
@@ -112,14 +112,14 @@ struct RejectRay<N> {
 
     QRAY_INLINE constexpr bool misses_plane(const Point<N>& c, const Direction<N>& n) const
     {
-        const int32_t den = along(ray.direction, n);
-        const int32_t num = along(c - ray.origin, n);
+        const int32_t den = component(ray.direction, n);
+        const int32_t num = component(c - ray.origin, n);
         return (num > 0 && den < -3) || (num < -3 && den > 0);
     }
 
 private:
     template <class T>
-    QRAY_INLINE static constexpr int32_t along(const Vec<T>& a, const Direction<N>& d)
+    QRAY_INLINE static constexpr int32_t component(const Vec<T>& a, const Direction<N>& d)
     {
         return high_dot(a.x.raw, a.y.raw, a.z.raw, d.x.raw, d.y.raw, d.z.raw);
     }

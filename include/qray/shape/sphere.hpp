@@ -76,10 +76,10 @@ QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Corners<N>&, cons
         return false;
     const auto coarse = N::coarse(half, s.fine);
     t = middle - coarse;
-    local.along = -half;
+    local.offset = -half;
     if (leaving == Leaves::inward || !(t > N::length_zero)) {
         t = middle + coarse;
-        local.along = half;
+        local.offset = half;
         if (!(t > N::length_zero)) {
             if (leaving != Leaves::inward)
                 return false;
@@ -87,7 +87,7 @@ QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Corners<N>&, cons
         }
     }
     if constexpr (WideFixed<N>)
-        local.along = foot + local.along;
+        local.offset = foot + local.offset;
     return t <= limit;
 }
 
@@ -120,7 +120,7 @@ template <class N>
 QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length,
                                       const Local<N>& local, Point<N>& point, Direction<N>& n)
 {
-    auto from_near = local.along;
+    auto from_near = local.offset;
     if constexpr (NarrowFixed<N>) // the middle was rounded to a coarse ulp, and `near` is off by that along the ray
         from_near = from_near - N::length(dot<N>(local.near, ray.direction));
     const Point<N> w = local.near + along<N>(from_near, ray.direction);

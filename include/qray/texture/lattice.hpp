@@ -107,16 +107,16 @@ struct LatticeAxis<N> {
 
     constexpr Cell<N> cell(const Point<N>& q) const
     {
-        const Cell<N> c = split(along(q) + inside);
+        const Cell<N> c = split(row_dot(q) + inside);
         return {c.index + index, c.inside};
     }
     constexpr F clamped(const Point<N>& q) const
     {
-        const F p = along(q) + offset;
+        const F p = row_dot(q) + offset;
         return p > F(0) ? (p < F(1) ? p : F(1)) : F(0);
     }
-    constexpr F along(const Point<N>& q) const { return row_x * q.x + row_y * q.y + row_z * q.z; }
-    constexpr F bounded(const Point<N>& q) const { return along(q) + offset; }
+    constexpr F row_dot(const Point<N>& q) const { return row_x * q.x + row_y * q.y + row_z * q.z; }
+    constexpr F bounded(const Point<N>& q) const { return row_dot(q) + offset; }
     static constexpr Cell<N> split(F p)
     {
         if constexpr (sizeof(F) == 4) {

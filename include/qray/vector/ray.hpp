@@ -45,7 +45,7 @@ QRAY_INLINE constexpr Leaves leaves(const Ray<N>& ray, Tag tag)
 template <class N>
 struct Local {
     Point<N> near;
-    typename N::Length along;
+    typename N::Length offset;
 };
 
 // A point's rounded coordinates less the exact ones, times 2^fine.

@@ -80,7 +80,7 @@ QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Ray<N>& ray, type
             return false;
     }
     local.near = -v;
-    local.along = t;
+    local.offset = t;
     return t <= limit;
 }
 
@@ -98,7 +98,7 @@ template <class N>
 QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Local<N>& local, const Direction<N>& d,
                                       Point<N>& point, Direction<N>& n)
 {
-    const Point<N> w = local.near + along<N>(local.along, d);
+    const Point<N> w = local.near + along<N>(local.offset, d);
     n = {N::ratio(w.x, s.inverse_radius), N::ratio(w.y, s.inverse_radius), N::ratio(w.z, s.inverse_radius)};
     point = s.centre + w;
 }
