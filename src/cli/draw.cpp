@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <time.h>
 
+#include <algorithm>
 #include <atomic>
 
 namespace qray::cli {
@@ -16,9 +17,6 @@ namespace {
 constexpr size_t pool_bytes = size_t{max_threads} * scene::Limits::resolution * 3;
 constexpr uint32_t max_slots = 4096;
 constexpr size_t stack_bytes = 256 << 10; // of a thread: an eighth is used, and more where sanitizers look on
-
-uint32_t least(uint32_t a, uint32_t b) { return a < b ? a : b; }
-uint32_t most(uint32_t a, uint32_t b) { return a > b ? a : b; }
 
 // How much is done, and the time left, in one line on standard error that is wiped at the end.
 class Progress {
@@ -63,9 +61,9 @@ public:
     {
         // Small blocks, so that no thread waits long for another at the end; of some pixels each, to pay for
         // taking one.
-        block_rows = most(least(height / (32 * threads), 1024 / picture.width), 1);
+        block_rows = std::max(std::min(height / (32 * threads), 1024 / picture.width), 1u);
         blocks = (height + block_rows - 1) / block_rows;
-        slots = least(least(static_cast<uint32_t>(pool_bytes / stride) / block_rows, max_slots), blocks);
+        slots = std::min(std::min(static_cast<uint32_t>(pool_bytes / stride) / block_rows, max_slots), blocks);
     }
     ~Drawing() { give_back(pool); }
     Drawing(const Drawing&) = delete;
@@ -82,7 +80,7 @@ public:
             if (block >= blocks || !wait_for_slot(block))
                 break;
             const uint32_t first = block * block_rows;
-            renderer.rows(first, least(first + block_rows, height), slot(block), own);
+            renderer.rows(first, std::min(first + block_rows, height), slot(block), own);
             finish(block);
         }
         pthread_mutex_lock(&mutex);
@@ -117,7 +115,7 @@ private:
             writing = true;
             while (!failed && written < blocks && ready[written % slots]) {
                 pthread_mutex_unlock(&mutex);
-                const uint32_t first = written * block_rows, rows = least(block_rows, height - first);
+                const uint32_t first = written * block_rows, rows = std::min(block_rows, height - first);
                 const bool good = output.write(slot(written), size_t{rows} * stride);
                 progress.update(first + rows, height);
                 pthread_mutex_lock(&mutex);
@@ -166,7 +164,7 @@ uint32_t thread_count(uint32_t asked)
         return asked;
     cpu_set_t set;
     const int n = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
-    return least(most(static_cast<uint32_t>(n), 1), max_threads);
+    return std::min(std::max(static_cast<uint32_t>(n), 1u), max_threads);
 }
 
 bool draw_picture(const Renderer& renderer, const Built& picture, uint32_t threads, Output& output, bool progress,
@@ -185,7 +183,7 @@ bool draw_picture(const Renderer& renderer, const Built& picture, uint32_t threa
     pthread_t others[max_threads];
     uint32_t started = 0;
     // Where no thread can be had, fewer do.
-    while (started + 1 < least(threads, drawing.block_count())
+    while (started + 1 < std::min(threads, drawing.block_count())
            && pthread_create(&others[started], &small, work, &drawing) == 0)
         started++;
     drawing.work();

@@ -36,8 +36,8 @@ void warn(const char* name, const scene::Warning& w)
     fputc('\n', stderr);
 }
 
-// The output's name: as given, else the scene's in this folder, with another end, or standard output. Null, and a message,
-// where that is too long.
+// The output's name: as given, else the scene's in this folder, with another end, or standard output. Null, and a
+// message, where that is too long.
 const char* output_name(const Options& options, const char* end)
 {
     static char own[260];
@@ -55,8 +55,8 @@ const char* output_name(const Options& options, const char* end)
     return nullptr;
 }
 
-// Reads the scene and builds it. Returns `go_on`, or the status to exit with, having printed why: also where `out` is the
-// scene itself.
+// Reads the scene and builds it. Returns `go_on`, or the status to exit with, having printed why: also where `out` is
+// the scene itself.
 int load(const Options& options, const Renderer& renderer, const char* out, Built& built)
 {
     scene::Error error;
@@ -166,9 +166,9 @@ int run(int argc, char** argv)
     if (argc == 2 && strcmp(argv[1], "--describe") == 0)
         return describe();
     const bool compiles = argc > 1 && strcmp(argv[1], "compile") == 0;
+    const Command command = compiles ? Command::compile : Command::draw;
     Options options;
-    if (const int status = read_options(compiles ? Command::compile : Command::draw, argc - compiles, argv + compiles, options);
-        status != go_on)
+    if (const int status = read_options(command, argc - compiles, argv + compiles, options); status != go_on)
         return status;
     const char* const out = output_name(options, compiles ? ".hpp" : ".ppm");
     return out == nullptr ? 2 : compiles ? compile(options, out) : draw(options, out);

@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <iterator>
+
 namespace qray::cli {
 
 namespace {
@@ -24,25 +26,17 @@ struct Option {
 
 bool whole(std::string_view text, uint32_t low, uint32_t high, uint32_t& value)
 {
-    uint32_t read = 0;
-    if (scene::read_count(text, read) != scene::NumberError::none || read < low || read > high)
-        return false;
-    value = read;
-    return true;
+    return scene::read_count(text, value) == scene::NumberError::none && value >= low && value <= high;
 }
 
 bool share(std::string_view text, double& value)
 {
-    double read = 0;
-    if (scene::read_number(text, read) != scene::NumberError::none || !(read >= 0 && read <= 1))
-        return false;
-    value = read;
-    return true;
+    return scene::read_number(text, value) == scene::NumberError::none && value >= 0 && value <= 1;
 }
 
 bool take_number(Options& o, const char* value)
 {
-    for (size_t i = 0; i < sizeof number_names / sizeof *number_names; i++)
+    for (size_t i = 0; i < std::size(number_names); i++)
         if (strcmp(value, number_names[i]) == 0) {
             o.number = static_cast<Number>(i);
             return true;
@@ -125,31 +119,20 @@ bool has(const Option& option, Command command)
 
 void print_help(Command command)
 {
-    switch (command) {
-    case Command::draw:
-        puts("usage: qray [options] SCENE\n"
-             "Draws a scene ('-': standard input) as a binary PPM picture.\n");
-        break;
-    case Command::compile:
-        puts("usage: qray compile [options] SCENE\n"
-             "Turns a scene ('-': standard input) into a C++ header, to be drawn without an operating system.\n");
-        break;
-    }
+    const bool draws = command == Command::draw;
+    puts(draws ? "usage: qray [options] SCENE\n"
+                 "Draws a scene ('-': standard input) as a binary PPM picture.\n"
+               : "usage: qray compile [options] SCENE\n"
+                 "Turns a scene ('-': standard input) into a C++ header, to be drawn without an operating system.\n");
     for (const Option& o : table)
         if (has(o, command))
             printf("  %-9s %-11s %s\n", o.name, o.value != nullptr ? o.value : "", o.help);
     puts("  -h, --help            this\n"
-         "  --version");
-    switch (command) {
-    case Command::draw:
-        puts("\nexample: qray scenes/showcase.nff -s 640x480 -r 4 -o picture.ppm\n"
-             "also: qray compile -h; qray --describe, what there is as JSON\n"
-             "exit status: 0; 1: bad scene, or the picture cannot be written; 2: bad options");
-        break;
-    case Command::compile:
-        puts("\nexample: qray compile scenes/showcase.nff -s 64x48 -n q32 -o showcase.hpp");
-        break;
-    }
+         "  --version\n");
+    puts(draws ? "example: qray scenes/showcase.nff -s 640x480 -r 4 -o picture.ppm\n"
+                 "also: qray compile -h; qray --describe, what there is as JSON\n"
+                 "exit status: 0; 1: bad scene, or the picture cannot be written; 2: bad options"
+               : "example: qray compile scenes/showcase.nff -s 64x48 -n q32 -o showcase.hpp");
 }
 
 const char* command_name(Command command)

@@ -6,7 +6,7 @@
 namespace qray::cli {
 
 // To be called first: what is not committed is removed by every signal that would end this process and can be caught.
-// What is ignored stays so, as nohup has it. A write to a closed pipe, or beyond a limit of files, fails like any other.
+// What is ignored stays so, as nohup has it. A write to a closed pipe, or beyond a limit, fails like any other.
 void catch_signals();
 
 // One at a time. Where a function returns false, report() says why, in one line on standard error. What is not

@@ -85,8 +85,8 @@ template <class N, Effects E>
 
 template <class N>
 struct RendererOf {
-    // The tracers that are built ahead, from the tightest to the one for everything: the first that can draw the scene is
-    // taken. All give the same bytes. float's and q32's are built a second time with vectors in registers (lanes_*.cpp).
+    // The tracers that are built ahead, from the tightest to the one for everything: the first that can draw the scene
+    // is taken. All give the same bytes. float's and q32's are built a second time with vectors in registers.
     struct Kernel {
         const char* name;
         Effects effects;
@@ -96,7 +96,10 @@ struct RendererOf {
     {
         constexpr Effects balls = balls_effects(), nff = nff_effects(), all = everything(scene::Settings::max_depth);
         static constexpr Kernel kernels[] = {
-            {"balls", balls, flat_rows_of<N, balls>}, {"nff", nff, rows_of<N, nff>}, {"everything", all, rows_of<N, all>}};
+            {"balls", balls, flat_rows_of<N, balls>},
+            {"nff", nff, rows_of<N, nff>},
+            {"everything", all, rows_of<N, all>},
+        };
         const Kernel* k = kernels;
         while (!k->effects.holds(storage_of<N>().effects))
             k++;

@@ -69,7 +69,7 @@ private:
             x = (x | x << 4) & 0x0c30c30c30c3;
             return (x | x << 2) & 0x249249249249;
         };
-        return 1 + (spread(b.x) | spread(b.y) << 1 | spread(b.z) << 2);
+        return 1 + (spread(b.centre.x) | spread(b.centre.y) << 1 | spread(b.centre.z) << 2);
     }
 
     using Bounded = BoundedRay<N>;
@@ -79,28 +79,21 @@ private:
     // What the block's ball number i bounds; a radius below 0 if it is none.
     static Ball ball(const BallBlock& b, uint32_t i)
     {
-        return {static_cast<double>(b.x[i]) / length, static_cast<double>(b.y[i]) / length,
-                static_cast<double>(b.z[i]) / length, static_cast<double>(b.reach[i]) / reach};
+        return {{static_cast<double>(b.x[i]) / length, static_cast<double>(b.y[i]) / length,
+                 static_cast<double>(b.z[i]) / length},
+                static_cast<double>(b.reach[i]) / reach};
     }
 
     static Ball around(const BallBlock& b)
     {
-        double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-        for (uint32_t i = 0; i < bound_lanes; i++) {
-            const Ball part = ball(b, i);
-            const double c[3] = {part.x, part.y, part.z};
-            for (int k = 0; k < 3 && part.radius >= 0; k++) {
-                low[k] = fmin(low[k], c[k] - part.radius);
-                high[k] = fmax(high[k], c[k] + part.radius);
-            }
-        }
-        Ball whole{(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2, 0};
-        for (uint32_t i = 0; i < bound_lanes; i++) {
-            const Ball part = ball(b, i);
-            const double x = part.x - whole.x, y = part.y - whole.y, z = part.z - whole.z;
-            if (part.radius >= 0)
-                whole.radius = fmax(whole.radius, sqrt(x * x + y * y + z * z) + part.radius);
-        }
+        Extent box;
+        for (uint32_t i = 0; i < bound_lanes; i++)
+            if (const Ball part = ball(b, i); part.radius >= 0)
+                box.add(part.centre, {part.radius, part.radius, part.radius});
+        Ball whole{box.middle(), 0};
+        for (uint32_t i = 0; i < bound_lanes; i++)
+            if (const Ball part = ball(b, i); part.radius >= 0)
+                whole.radius = fmax(whole.radius, scene::length(part.centre - whole.centre) + part.radius);
         return whole;
     }
 
@@ -117,10 +110,10 @@ private:
             BallBlock& block = s.blocks.push();
             for (uint32_t i = 0; i < bound_lanes; i++) {
                 const bool present = b * bound_lanes + i < count;
-                const Ball ball = present ? of(b * bound_lanes + i) : Ball{0, 0, 0, 0};
-                block.x[i] = static_cast<float>(ball.x * length);
-                block.y[i] = static_cast<float>(ball.y * length);
-                block.z[i] = static_cast<float>(ball.z * length);
+                const Ball ball = present ? of(b * bound_lanes + i) : Ball{};
+                block.x[i] = static_cast<float>(ball.centre.x * length);
+                block.y[i] = static_cast<float>(ball.centre.y * length);
+                block.z[i] = static_cast<float>(ball.centre.z * length);
                 // Wider by what coordinates below 2^7 may be off in 24 bits, here and in a ray's origin.
                 const double r = (ball.radius * (1 + 1e-6) + slack) * reach;
                 block.reach[i] = present ? static_cast<float>(r) : -1.0f;

@@ -50,8 +50,8 @@ public:
 
     Point<N> point(const Vec3d& p) const { return Convert<N>::point(frame.point(p)); }
     typename N::Length length(double r) const { return Convert<N>::length(r * frame.scale); }
-    // A bound that rounding does not make too small. In q16 that of corners and of the middle, sqrt(3) ulp, and the 3 and
-    // more of its reject: see reject.hpp.
+    // A bound that rounding does not make too small. In q16 that of corners and of the middle, sqrt(3) ulp, and the 3
+    // and more of its reject: see reject.hpp.
     typename N::Length bound(double r) const
     {
         return Convert<N>::length(r * frame.scale * (1 + 1e-6) + (NarrowFixed<N> ? 6.0 / 1024 : 2e-6));
@@ -149,7 +149,7 @@ private:
 
     void fit()
     {
-        Box box;
+        Extent box;
         box.add(d.view.from);
         box.add(d.view.at);
         double needed = 0; // in units of what a point's coordinates may be
@@ -161,7 +161,7 @@ private:
             endless = endless || is_endless(o);
         }
         Frame& f = frame;
-        f.centre = (box.low + box.high) * 0.5;
+        f.centre = box.middle();
         f.radius = scene::length(box.high - box.low) / 2;
         f.far = d.far > 0 ? d.far : 16 * f.radius;
         const double reach = endless ? fmax(f.radius, f.far) : f.radius;

@@ -65,8 +65,8 @@ public:
             out.comment(title);
         out.comment(origin);
         out.put("#pragma once\n\n#include <qray/qray.hpp>\n\n");
-        out.print("namespace %s::inline h%016llx { // by its contents, so that a linker tells two scenes apart\n\n", name,
-                  static_cast<unsigned long long>(digest()));
+        out.print("namespace %s::inline h%016llx { // by its contents, so that a linker tells two scenes apart\n\n",
+                  name, static_cast<unsigned long long>(digest()));
         contents();
         out.print("\n} // namespace %s\n", name);
     }
@@ -141,7 +141,10 @@ private:
 
     static constexpr const char* number_name()
     {
-        return std::is_same_v<N, Float> ? "Float" : std::is_same_v<N, Double> ? "Double" : NarrowFixed<N> ? "q16" : "q32";
+        return std::is_same_v<N, Float> ? "Float"
+            : std::is_same_v<N, Double> ? "Double"
+            : NarrowFixed<N>            ? "q16"
+                                        : "q32";
     }
 
     void effects()

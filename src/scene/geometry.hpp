@@ -1,4 +1,4 @@
-// Geometry in double, in the scene's own units: boxes, and what lies on planes.
+// Geometry in double, in the scene's own units: extents, and what lies on planes.
 #pragma once
 
 #include <math.h>
@@ -8,13 +8,14 @@
 
 namespace qray::scene {
 
-struct Box {
+struct Extent {
     Vec3d low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     void add(const Vec3d& p, const Vec3d& extent = {})
     {
         low = {fmin(low.x, p.x - extent.x), fmin(low.y, p.y - extent.y), fmin(low.z, p.z - extent.z)};
         high = {fmax(high.x, p.x + extent.x), fmax(high.y, p.y + extent.y), fmax(high.z, p.z + extent.z)};
     }
+    Vec3d middle() const { return (low + high) * 0.5; }
     bool holds(const Vec3d& p) const
     {
         return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
@@ -47,12 +48,18 @@ inline Vec3d across(const Vec3d* v, uint32_t count)
     return sum;
 }
 
-// Is p no farther than `off` from the plane through `at` with normal n? How far, on the side of n, is `above`.
-inline bool lies_in_plane(const Vec3d& at, const Vec3d& n, const Vec3d& p, double off, Vec3d& outward, double& above)
+// A point as seen from a surface that it is near, or not: how far outward it is, and which way that is, 0 at an apex.
+struct Above {
+    bool near = false;
+    double height = 0;
+    Vec3d outward;
+};
+
+// Of the plane through `at` with normal n.
+inline Above above_plane(const Vec3d& at, const Vec3d& n, const Vec3d& p, double off)
 {
-    outward = n;
-    above = dot(p - at, n);
-    return fabs(above) <= off;
+    const double height = dot(p - at, n);
+    return {fabs(height) <= off, height, n};
 }
 
 } // namespace qray::scene

@@ -276,8 +276,8 @@ private:
         if (range.holds(value))
             return true;
         value = std::clamp(value, range.low, range.high);
-        out.clamped.note(token.at, "%s is %s, outside of %g to %g; %g is taken", what, Shown(token.text).text, range.low,
-                         range.high, value);
+        out.clamped.note(token.at, "%s is %s, outside of %g to %g; %g is taken", what, Shown(token.text).text,
+                         range.low, range.high, value);
         return true;
     }
 

@@ -80,7 +80,8 @@ bool Reader::number(const char* what, const Range& range, double& value, const c
     if (!read(read_number, what, part, value))
         return false;
     value = range.meant(value);
-    return range.holds(value) || fail(token.at, "%s%s is %s; expected %s", part, what, Shown(token.text).text, range.text);
+    return range.holds(value)
+        || fail(token.at, "%s%s is %s; expected %s", part, what, Shown(token.text).text, range.text);
 }
 
 bool Reader::count(const char* what, uint32_t low, uint32_t high, const char* limit, uint32_t& value)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <tuple>
 
 #include "convert.hpp"
 #include "shapes.hpp"
@@ -73,37 +74,34 @@ public:
     {
         const double need = Steps<N>::off * step();
         Vec3d at = d.view.from;
-        for (int round = 0; round < 8; round++) {
-            bool moved = false;
-            for_each_near(d.view.from, need + length(at - d.view.from), [&](const Object& o, uint32_t part, double off) {
-                Vec3d n, way;
-                double text_off = 0, now = 0;
-                lies_on(d, o, part, d.view.from, off, n, text_off);
-                const double most = fmin(need, share() * widest(o)), side = text_off < 0 ? -1 : 1;
+        bool moved = true;
+        for (int round = 0; moved && round < 8; round++) {
+            moved = false;
+            for_each_near(d.view.from, need + length(at - d.view.from), [&](const Near& s) {
+                const Object& o = s.object;
+                const Above& text = s.above;
+                const double most = fmin(need, share() * widest(o)), side = text.height < 0 ? -1 : 1;
                 if (round == 0)
-                    horizon(o, n, text_off, fmax(most, text_off));
-                if (fabs(text_off) <= noise(o, n, d.view.from) || !lies_on(d, o, part, at, off, way, now)
-                    || !(length(way) > 0)
-                    || side * now > 0.99 * most)
+                    horizon(o, text, fmax(most, text.height));
+                const Above now = lies_on(d, o, s.part, at, s.off);
+                if (is_on(o, text) || !now.near || !(length(now.outward) > 0) || side * now.height > 0.99 * most)
                     return true;
-                at = at + way * (side * most - now);
+                at = at + now.outward * (side * most - now.height);
                 moved = true;
                 if (round == 7)
-                    lost.note({o.line, 0}, "the eye, %.3g off a %s, falls onto it where steps are %.3g", fabs(text_off),
-                              name_of(o), step());
+                    lost.note({o.line, 0}, "the eye, %.3g off a %s, falls onto it where steps are %.3g",
+                              fabs(text.height), name_of(o), step());
                 return true;
             });
-            if (!moved)
-                break;
         }
         return at;
     }
 
     // Seen from outside, where does what is curved end?
-    void horizon(const Object& o, const Vec3d& n, double off, double seen_from)
+    void horizon(const Object& o, const Above& text, double seen_from)
     {
-        const double r = widest(o);
-        if (r == HUGE_VAL || off <= noise(o, n, d.view.from) || fabs(dot(n, forward)) > sin(half_diagonal()))
+        const double r = widest(o), off = text.height;
+        if (r == HUGE_VAL || off < 0 || is_on(o, text) || fabs(dot(text.outward, forward)) > sin(half_diagonal()))
             return;
         const double moved = sqrt(2 * seen_from / r) - sqrt(2 * off / r)
             + Steps<N>::rough * step() / sqrt(2 * seen_from * r);
@@ -116,13 +114,13 @@ public:
     int64_t eye_surface(uint32_t& fill, Vec3d& outward) const
     {
         int64_t found = -1;
-        for_each_near(d.view.from, 0x1p-44 * (frame.radius + largest(d.view.from)), [&](const Object& o, uint32_t part, double off) {
-            double above = 0;
-            lies_on(d, o, part, d.view.from, off, outward, above);
-            if (fabs(above) > noise(o, outward, d.view.from))
+        const double off = 0x1p-44 * (frame.radius + largest(d.view.from));
+        for_each_near(d.view.from, off, [&](const Near& s) {
+            if (!is_on(s.object, s.above))
                 return true;
-            fill = o.fill;
-            found = place_of(o) + part;
+            fill = s.object.fill;
+            outward = s.above.outward;
+            found = s.place;
             return false;
         });
         return found;
@@ -132,15 +130,11 @@ public:
     template <class F>
     void light_surfaces(const Vec3d& p, F f) const
     {
-        for_each_near(p, fmax(Steps<N>::off * step(), 0x1p-44 * (frame.radius + largest(p))),
-                      [&](const Object& o, uint32_t part, double off) {
-                          Vec3d outward;
-                          double above = 0;
-                          lies_on(d, o, part, p, off, outward, above);
-                          const bool on = fabs(above) <= 16 * noise(o, outward, p); // it may be computed
-                          f(place_of(o) + part, o.fill, outward, on ? 0 : above > 0 ? 1 : -1);
-                          return true;
-                      });
+        for_each_near(p, fmax(Steps<N>::off * step(), 0x1p-44 * (frame.radius + largest(p))), [&](const Near& s) {
+            const bool on = fabs(s.above.height) <= 16 * noise(s.object, s.above.outward, p); // it may be computed
+            f(s.place, s.object.fill, s.above.outward, on ? 0 : s.above.height > 0 ? 1 : -1);
+            return true;
+        });
     }
 
     // Does an object in view span steps enough?
@@ -148,9 +142,9 @@ public:
     {
         if (is_endless(o))
             return;
-        Box box;
+        Extent box;
         add_object(box, d, o);
-        const Vec3d middle = (box.low + box.high) * 0.5, v = middle - d.view.from;
+        const Vec3d middle = box.middle(), v = middle - d.view.from;
         const double r = length(box.high - box.low) / 2, away = length(v), picture = 2 * half * away;
         if (away <= r || r * d.view.height < picture / 2
             || acos(fmax(-1, fmin(1, dot(v, forward) / away))) - asin(r / away) > half_diagonal())
@@ -161,15 +155,15 @@ public:
         if (2 * r < picture)
             lost.note({o.line, 0}, "a %s spans only %.3g steps of %.3g", name_of(o), 2 * r / error, error);
         else
-            lost.note({o.line, 0}, "at a %s the picture spans only %.3g steps of %.3g", name_of(o), picture / error, error);
+            lost.note({o.line, 0}, "at a %s the picture spans only %.3g steps of %.3g", name_of(o), picture / error,
+                      error);
     }
 
     // Which surfaces lie so close that what is between them is lost? `sorted` has room for all objects.
     void pairs(SortedObject* sorted)
     {
-        static constexpr Kind kinds[] = {Kind::sphere, Kind::cone, flat};
         const double near = Steps<N>::clear_apart * step();
-        for (const Kind kind : kinds) {
+        for (const Kind kind : {Kind::sphere, Kind::cone, flat}) {
             uint32_t count = 0;
             for (uint32_t i = 0; i < d.object_count; i++)
                 if (kind_of(d.objects[i]) == kind) {
@@ -177,7 +171,7 @@ public:
                     sorted[count++] = {k.x, k.y, k.z, i};
                 }
             std::sort(sorted, sorted + count, [](const SortedObject& a, const SortedObject& b) {
-                return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z != b.z ? a.z < b.z : a.index < b.index;
+                return std::tie(a.x, a.y, a.z, a.index) < std::tie(b.x, b.y, b.z, b.index);
             });
             for (uint32_t i = 0; i < count; i++)
                 for (uint32_t k = i + 1; k < count && k < i + neighbours; k++) {
@@ -188,8 +182,7 @@ public:
                     if (fmax(fabs(b.y - a.y), fabs(b.z - a.z)) > near
                         || (kind == flat && b.x - a.x <= 0x1p-52 * b.x))
                         continue;
-                    pair(d.objects[a.index < b.index ? a.index : b.index],
-                         d.objects[a.index < b.index ? b.index : a.index]);
+                    pair(d.objects[std::min(a.index, b.index)], d.objects[std::max(a.index, b.index)]);
                 }
         }
     }
@@ -214,28 +207,31 @@ private:
 
     double half_diagonal() const { return atan(half * sqrt(1 + pow(double(d.view.width) / d.view.height, 2))); }
 
-    // Until it returns false: for each surface no farther than `off` from p.
+    bool is_on(const Object& o, const Above& eye) const
+    {
+        return fabs(eye.height) <= noise(o, eye.outward, d.view.from);
+    }
+
+    // A surface that a point of the text is near, no farther than `off`.
+    struct Near {
+        const Object& object;
+        uint32_t place, part;
+        double off;
+        Above above;
+    };
+    // For each that is no farther than `off` from p, until it returns false.
     template <class Visit>
     void for_each_near(const Vec3d& p, double off, Visit visit) const
     {
+        uint32_t place = 0;
         for (uint32_t i = 0; i < d.object_count; i++) {
             const Object& o = d.objects[i];
-            for (uint32_t part = 0; part < surfaces_of(o); part++) {
-                Vec3d outward;
-                double above = 0;
-                const double most = fmin(off, share() * widest(o));
-                if (lies_on(d, o, part, p, most, outward, above) && !visit(o, part, most))
+            const double most = fmin(off, share() * widest(o));
+            for (uint32_t part = 0; part < surfaces_of(o); part++, place++)
+                if (const Above above = lies_on(d, o, part, p, most);
+                    above.near && !visit(Near{o, place, part, most, above}))
                     return;
-            }
         }
-    }
-
-    uint32_t place_of(const Object& o) const
-    {
-        uint32_t place = 0;
-        for (const Object* p = d.objects; p != &o; p++)
-            place += surfaces_of(*p);
-        return place;
     }
 
     // By how much an object may seem to lie beside where it is.
@@ -257,10 +253,7 @@ private:
 
     // Planes, discs and polygons alike.
     static constexpr Kind flat = Kind::disc;
-    static Kind kind_of(const Object& o)
-    {
-        return o.kind == Kind::polygon ? flat : o.kind;
-    }
+    static Kind kind_of(const Object& o) { return o.kind == Kind::polygon ? flat : o.kind; }
 
     // What is flat: its plane, and how to tell what lies on it.
     Vec3d normal(const Object& o) const
@@ -347,8 +340,9 @@ private:
             return;
         if (f.transmit == 0 && (clear(g) || in_front(a, b)) && same(a, b))
             return;
-        lost.note({b.line, 0}, "a %s falls together with another surface, that of line %u, %.3g off, where steps are %.3g",
-                  name_of(b), a.line, off, step());
+        lost.note({b.line, 0},
+                  "a %s falls together with another surface, that of line %u, %.3g off, where steps are %.3g", name_of(b),
+                  a.line, off, step());
     }
     bool in_front(const Object& a, const Object& b) const
     {

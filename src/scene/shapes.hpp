@@ -57,14 +57,13 @@ inline bool is_endless(const Object& o)
 {
     return with_host(o.kind, [&o](auto host) { return host.is_endless(o); });
 }
-inline void add_object(Box& box, const Description& d, const Object& o)
+inline void add_object(Extent& box, const Description& d, const Object& o)
 {
     with_host(o.kind, [&](auto host) { host.extent(box, d, o); });
 }
-inline bool lies_on(const Description& d, const Object& o, uint32_t part, const Vec3d& p, double off, Vec3d& outward,
-                    double& above)
+inline Above lies_on(const Description& d, const Object& o, uint32_t part, const Vec3d& p, double off)
 {
-    return with_host(o.kind, [&](auto host) { return host.lies_on(d, o, part, p, off, outward, above); });
+    return with_host(o.kind, [&](auto host) { return host.lies_on(d, o, part, p, off); });
 }
 
 } // namespace qray::scene

@@ -16,10 +16,7 @@ struct Array {
     uint32_t count;
     T* data;
 
-    T& push()
-    {
-        return data[count++];
-    }
+    T& push() { return data[count++]; }
     template <bool Present>
     Table<T, Present> view() const
     {
@@ -69,7 +66,7 @@ struct Storage {
             all += surfaces;
         }
         return lay_out_in(room, [&](Layout& layout) {
-            const auto cut = [&layout]<class T>(Array<T>& array, uint32_t count) { array = {0, layout.array<T>(count)}; };
+            const auto cut = [&layout]<class T>(Array<T>& table, uint32_t most) { table = {0, layout.array<T>(most)}; };
 #define QRAY_CUT(Type, name, table) cut(table, shapes[static_cast<int>(Kind::name)]);
             QRAY_SHAPES(QRAY_CUT)
 #undef QRAY_CUT

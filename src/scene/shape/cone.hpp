@@ -20,8 +20,9 @@ struct Host<Cone> : HostOfShape {
         return true;
     }
     static constexpr Entity entities[] = {{"c", "cone", "cones", read}};
-    static constexpr const char* fields = "middle; across, across, axis; cosine * mean radius, half height, bound, all * 2^fine; "
-                                          "cosine, sine; fine; tag; middle's rounding * 2^fine";
+    static constexpr const char* fields =
+        "middle; across, across, axis; cosine * mean radius, half height, bound, all * 2^fine; "
+        "cosine, sine; fine; tag; middle's rounding * 2^fine";
     static constexpr const char* example[] = {"c 1 0 0 0.3  1 1 0 0.1", "1 0 0.3"};
 
     static double widest(const Object& o) { return fmax(o.ra, o.rb); }
@@ -31,14 +32,13 @@ struct Host<Cone> : HostOfShape {
         const double half = length(o.b - o.a) / 2, r = widest(o);
         return sqrt(half * half + r * r);
     }
-    static void extent(Box& box, const Description&, const Object& o)
+    static void extent(Extent& box, const Description&, const Object& o)
     {
         const Vec3d axis = unit(o.b - o.a);
         box.add(o.a, circle_extent(axis, o.ra));
         box.add(o.b, circle_extent(axis, o.rb));
     }
-    static bool lies_on(const Description&, const Object& o, uint32_t, const Vec3d& p, double off, Vec3d& outward,
-                        double& above)
+    static Above lies_on(const Description&, const Object& o, uint32_t, const Vec3d& p, double off)
     {
         const Vec3d axis = unit(o.b - o.a);
         const double height = length(o.b - o.a), growth = (o.rb - o.ra) / height;
@@ -46,9 +46,9 @@ struct Host<Cone> : HostOfShape {
         const double z = dot(p - o.a, axis), r = o.ra + growth * z;
         const Vec3d radial = p - o.a - axis * z;
         const double rho = length(radial);
-        outward = r > off && rho > 0 ? (radial * (1 / rho) - axis * growth) * cosine : Vec3d{};
-        above = (rho - r) * cosine;
-        return z >= -off && z <= height + off && fabs(above) <= off;
+        const double above = (rho - r) * cosine;
+        return {z >= -off && z <= height + off && fabs(above) <= off, above,
+                r > off && rho > 0 ? (radial * (1 / rho) - axis * growth) * cosine : Vec3d{}};
     }
 
     // How large its ball may be in the moved and scaled scene: see cone.hpp, q16.hpp.

@@ -9,8 +9,8 @@ namespace qray::scene {
 inline bool read_corners(Reader& r, Description& d, Object& o, bool with_normals)
 {
     o.vertex = d.vertex_count;
-    if (!r.count(with_normals ? "the number of vertices of a patch" : "the number of vertices of a polygon", 3, UINT32_MAX,
-                 "", o.count))
+    if (!r.count(with_normals ? "the number of vertices of a patch" : "the number of vertices of a polygon", 3,
+                 UINT32_MAX, "", o.count))
         return false;
     if (o.count > Limits::vertices - d.vertex_count)
         return r.fail(r.token.at,
@@ -46,6 +46,12 @@ inline bool has_area(const Vec3d* corners, uint32_t n, bool fan)
     return !fan && largest(sum) > noise;
 }
 
+inline void add_corners(Extent& box, const Vec3d* corners, uint32_t count, double off = 0)
+{
+    for (uint32_t i = 0; i < count; i++)
+        box.add(corners[i], {off, off, off});
+}
+
 // Is a corner off the plane of the first three by more than a hundredth of the polygon's size?
 inline void warn_of_nonplanar(Description& d, const Object& o)
 {
@@ -53,51 +59,50 @@ inline void warn_of_nonplanar(Description& d, const Object& o)
         return;
     const Vec3d* corners = d.vertices + o.vertex;
     const Vec3d normal = unit(across(corners, o.count));
-    Box box;
+    Extent box;
+    add_corners(box, corners, o.count);
     double off = 0;
-    for (uint32_t i = 0; i < o.count; i++) {
-        box.add(corners[i]);
+    for (uint32_t i = 0; i < o.count; i++)
         off = fmax(off, fabs(dot(corners[i] - corners[0], normal)));
-    }
     const double size = length(box.high - box.low);
     if (off > 0.01 * size)
-        d.nonplanar.note({o.line, 0}, "a polygon with a corner %.3g off its plane, %.3g %% of its size", off, 100 * off / size);
+        d.nonplanar.note({o.line, 0}, "a polygon with a corner %.3g off its plane, %.3g %% of its size", off,
+                         100 * off / size);
 }
 
-inline void add_corners(Box& box, const Description& d, const Object& o)
-{
-    for (uint32_t i = 0; i < o.count; i++)
-        box.add(d.vertices[o.vertex + i]);
-}
+struct HostOfCorners : HostOfShape {
+    static void extent(Extent& box, const Description& d, const Object& o)
+    {
+        add_corners(box, d.vertices + o.vertex, o.count);
+    }
+};
 
-// A figure is taken for what its box holds of its plane: a ray from there meets nothing of it.
-inline bool lies_in_figure(const Vec3d* corners, uint32_t count, const Vec3d& p, double off, Vec3d& outward, double& above)
+// A figure is taken for what its extent holds of its plane: a ray from there meets nothing of it.
+inline Above lies_in_figure(const Vec3d* corners, uint32_t count, const Vec3d& p, double off)
 {
-    Box box;
-    for (uint32_t i = 0; i < count; i++)
-        box.add(corners[i], {off, off, off});
+    Extent box;
+    add_corners(box, corners, count, off);
     if (!box.holds(p)) // of a large mesh, nearly all
-        return false;
+        return {};
     const Vec3d g = across(corners, count);
-    return length(g) > 0 && lies_in_plane(corners[0], unit(g), p, off, outward, above);
+    return length(g) > 0 ? above_plane(corners[0], unit(g), p, off) : Above{};
 }
 
-// The ball around the middle of the box of corner(0) to corner(count - 1).
+// The ball around the middle of the extent.
 template <class N>
 struct CornerBall {
     Point<N> middle;
     typename N::Length radius;
 };
-template <class B, class Corner>
-CornerBall<typename B::Number> corner_ball(const B& b, uint32_t count, Corner corner)
+template <class B>
+CornerBall<typename B::Number> corner_ball(const B& b, const Vec3d* corners, uint32_t count)
 {
-    Box box;
-    for (uint32_t i = 0; i < count; i++)
-        box.add(corner(i));
-    const Vec3d centre = (box.low + box.high) * 0.5;
+    Extent box;
+    add_corners(box, corners, count);
+    const Vec3d centre = box.middle();
     double far = 0;
     for (uint32_t i = 0; i < count; i++)
-        far = fmax(far, length(corner(i) - centre));
+        far = fmax(far, length(corners[i] - centre));
     return {b.point(centre), b.bound(far)};
 }
 

@@ -25,15 +25,14 @@ struct Host<Disc> : HostOfShape {
     static constexpr const char* example[] = {"disc 0 0 -1  0 0 1  2", "0 1 -1"};
 
     static bool is_endless(const Object& o) { return o.ra == HUGE_VAL; }
-    static void extent(Box& box, const Description&, const Object& o)
+    static void extent(Extent& box, const Description&, const Object& o)
     {
         if (!is_endless(o))
             box.add(o.a, circle_extent(unit(o.b), o.ra));
     }
-    static bool lies_on(const Description&, const Object& o, uint32_t, const Vec3d& p, double off, Vec3d& outward,
-                        double& above)
+    static Above lies_on(const Description&, const Object& o, uint32_t, const Vec3d& p, double off)
     {
-        return length(p - o.a) <= o.ra + off && lies_in_plane(o.a, unit(o.b), p, off, outward, above);
+        return length(p - o.a) <= o.ra + off ? above_plane(o.a, unit(o.b), p, off) : Above{};
     }
 
     template <class B>

@@ -1,11 +1,10 @@
-// What the desktop knows of a shape, beside its header in include/qray/shape: how the text says it, how far it reaches, what
-// the tracer's structure is made of. Host<Shape> stands in the header of the shape's name in this folder:
+// What the desktop knows of a shape, beside its header in include/qray/shape: how the text says it, how far it
+// reaches, what the tracer's structure is made of. Host<Shape> stands in the header of the shape's name in this folder:
 //   entities        the words that say one in a scene, each with a function that reads what follows
 //   fields          what a compiled scene says of its table's columns
 //   example         an object of about unit size at the origin, and a place on it, for tests
 //   extent          adds an object to a box
-//   lies_on         is a point no farther than `off` from an object (of several surfaces, the part-th)? Then also the outward
-//                   normal there, 0 at an apex, and how far outward the point is
+//   lies_on         is a point no farther than `off` from an object (of several surfaces, the part-th), on which side?
 //   convert         pushes the tracer's structures of an object, by a Builder
 //   bound           a ball around the tracer's structure, for the tree
 //   random          a random object as text, for tests
@@ -46,7 +45,8 @@ struct HostOfShape {
 
 // The ball of a shape in double, in the moved and scaled scene.
 struct Ball {
-    double x, y, z, radius;
+    Vec3d centre;
+    double radius;
 };
 template <class L>
 double value(L v)
@@ -59,7 +59,7 @@ double value(L v)
 template <class L>
 Ball ball_around(const Vec<L>& centre, double radius)
 {
-    return {value(centre.x), value(centre.y), value(centre.z), radius};
+    return {{value(centre.x), value(centre.y), value(centre.z)}, radius};
 }
 
 } // namespace qray::scene

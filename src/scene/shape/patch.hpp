@@ -6,7 +6,7 @@
 namespace qray::scene {
 
 template <>
-struct Host<Patch> : HostOfShape {
+struct Host<Patch> : HostOfCorners {
     static bool read(Reader& r, Description& d, Object& o, bool& empty)
     {
         if (!read_corners(r, d, o, true))
@@ -22,13 +22,11 @@ struct Host<Patch> : HostOfShape {
     static constexpr const char* example[] = {"pp 3  1 1 0 0 0 1  2 1 0 1 0 1  1 2 0 0 1 1", "1 1 0"};
 
     static uint32_t surfaces_of(const Object& o) { return o.count - 2; }
-    static void extent(Box& box, const Description& d, const Object& o) { add_corners(box, d, o); }
-    static bool lies_on(const Description& d, const Object& o, uint32_t part, const Vec3d& p, double off, Vec3d& outward,
-                        double& above)
+    static Above lies_on(const Description& d, const Object& o, uint32_t part, const Vec3d& p, double off)
     {
         const Vec3d* v = d.vertices + o.vertex;
         const Vec3d corners[3] = {v[0], v[part + 1], v[part + 2]};
-        return lies_in_figure(corners, 3, p, off, outward, above);
+        return lies_in_figure(corners, 3, p, off);
     }
 
     template <class B>
@@ -54,7 +52,7 @@ struct Host<Patch> : HostOfShape {
                 b.leave_out(o);
                 continue;
             }
-            const auto around = corner_ball(b, 3, [&corners](uint32_t k) { return corners[k]; });
+            const auto around = corner_ball(b, corners, 3);
             b.s.patches.push() = {Convert<N>::direction(unit(g)), around.middle, around.radius, first, first + i,
                                   make_tag(place, o.fill)};
         }

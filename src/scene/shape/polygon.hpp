@@ -6,7 +6,7 @@
 namespace qray::scene {
 
 template <>
-struct Host<Polygon> : HostOfShape {
+struct Host<Polygon> : HostOfCorners {
     static bool read(Reader& r, Description& d, Object& o, bool& empty)
     {
         if (!read_corners(r, d, o, false))
@@ -21,11 +21,9 @@ struct Host<Polygon> : HostOfShape {
     static constexpr const char* fields = "normal; middle and radius of a ball around it; first vertex, count; tag";
     static constexpr const char* example[] = {"p 4  -1 -1 0  0 -1 0  0 0 0  -1 0 0.1", "-1 -1 0"};
 
-    static void extent(Box& box, const Description& d, const Object& o) { add_corners(box, d, o); }
-    static bool lies_on(const Description& d, const Object& o, uint32_t, const Vec3d& p, double off, Vec3d& outward,
-                        double& above)
+    static Above lies_on(const Description& d, const Object& o, uint32_t, const Vec3d& p, double off)
     {
-        return lies_in_figure(d.vertices + o.vertex, o.count, p, off, outward, above);
+        return lies_in_figure(d.vertices + o.vertex, o.count, p, off);
     }
 
     template <class B>
@@ -39,7 +37,7 @@ struct Host<Polygon> : HostOfShape {
             b.s.vertices.count = first;
             return b.leave_out(o);
         }
-        const auto around = corner_ball(b, o.count, [v](uint32_t i) { return v[i]; });
+        const auto around = corner_ball(b, v, o.count);
         b.s.polygons.push() = {Convert<N>::direction(unit(g)), around.middle, around.radius, first, o.count,
                                make_tag(place, o.fill)};
     }

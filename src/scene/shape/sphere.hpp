@@ -19,17 +19,14 @@ struct Host<Sphere> : HostOfShape {
         "centre; radius * 2^fine and its inverse; fine; tag; centre's rounding * 2^fine";
     static constexpr const char* example[] = {"s 0 0 0 0.5", "0 0 0.5"};
 
-    static void extent(Box& box, const Description&, const Object& o) { box.add(o.a, {o.ra, o.ra, o.ra}); }
+    static void extent(Extent& box, const Description&, const Object& o) { box.add(o.a, {o.ra, o.ra, o.ra}); }
     static double widest(const Object& o) { return o.ra; }
-    static bool lies_on(const Description&, const Object& o, uint32_t, const Vec3d& p, double off, Vec3d& outward,
-                        double& above)
+    static Above lies_on(const Description&, const Object& o, uint32_t, const Vec3d& p, double off)
     {
         const double distance = length(p - o.a);
-        above = distance - o.ra;
-        if (!(distance > 0) || fabs(above) > off)
-            return false;
-        outward = unit(p - o.a);
-        return true;
+        if (!(distance > 0) || fabs(distance - o.ra) > off)
+            return {};
+        return {true, distance - o.ra, unit(p - o.a)};
     }
 
     static constexpr double world = 31.9; // what a block-scaled radius may be: see q16.hpp
