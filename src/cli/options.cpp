@@ -135,10 +135,7 @@ void print_help(Command command)
                : "example: qray compile scenes/showcase.nff -s 64x48 -n q32 -o showcase.hpp");
 }
 
-const char* command_name(Command command)
-{
-    return command == Command::draw ? "qray" : "qray compile";
-}
+const char* command_name(Command command) { return command == Command::draw ? "qray" : "qray compile"; }
 
 // "-s 64x48", "-s64x48", "--cutoff 0.1", "--cutoff=0.1"; `value` is null where none is in the argument itself.
 const Option* find(Command command, const char* argument, const char*& value)

@@ -2,6 +2,7 @@
 // programs that include <qray/qray.hpp>. It holds what the scene calls for and nothing else.
 #pragma once
 
+#include <concepts>
 #include <string_view>
 #include <type_traits>
 
@@ -191,11 +192,7 @@ private:
         out.put(sizeof...(members) == 0 ? "{}" : "}");
     }
 
-    void value(int64_t v) { out.number(v); }
-    void value(int32_t v) { out.number(int64_t{v}); }
-    void value(uint32_t v) { out.number(int64_t{v}); }
-    void value(uint16_t v) { out.number(int64_t{v}); }
-    void value(uint8_t v) { out.number(int64_t{v}); }
+    void value(std::integral auto v) { out.number(int64_t{v}); }
     void value(bool v) { out.put(v ? "true" : "false"); }
     void value(float v) { out.number(v); }
     void value(double v) { out.number(v); }

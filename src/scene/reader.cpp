@@ -70,10 +70,7 @@ bool Reader::read(NumberError (*as)(std::string_view, T&), const char* what, con
                 word ? "not a number" : reasons[static_cast<int>(wrong)]);
 }
 
-bool Reader::any_number(const char* what, double& value)
-{
-    return read(read_number, what, "", value);
-}
+bool Reader::any_number(const char* what, double& value) { return read(read_number, what, "", value); }
 
 bool Reader::number(const char* what, const Range& range, double& value, const char* part)
 {

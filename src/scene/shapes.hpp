@@ -49,10 +49,7 @@ inline uint32_t surfaces_of(const Object& o)
 {
     return with_host(o.kind, [&o](auto host) { return host.surfaces_of(o); });
 }
-inline double widest(const Object& o)
-{
-    return with_host(o.kind, [&o](auto host) { return host.widest(o); });
-}
+inline double widest(const Object& o) { return with_host(o.kind, [&o](auto host) { return host.widest(o); }); }
 inline bool is_endless(const Object& o)
 {
     return with_host(o.kind, [&o](auto host) { return host.is_endless(o); });

@@ -56,10 +56,7 @@ struct Host<Cone> : HostOfShape {
     static constexpr double world = NarrowFixed<N> ? 18 : 40;
 
     template <class N>
-    static double range(const Object& o)
-    {
-        return reach(o) / world<N>;
-    }
+    static double range(const Object& o) { return reach(o) / world<N>; }
 
     template <class B>
     static void convert(B& b, const Object& o, uint32_t place)
@@ -87,10 +84,7 @@ struct Host<Cone> : HostOfShape {
                             Convert<N>::rounded(b.frame.point(middle), fine)};
     }
     template <class N>
-    static Ball bound(const Cone<N>& s)
-    {
-        return ball_around(s.middle, ldexp(value(s.bound), -s.fine));
-    }
+    static Ball bound(const Cone<N>& s) { return ball_around(s.middle, ldexp(value(s.bound), -s.fine)); }
 
     template <class R>
     static auto random(R& r)

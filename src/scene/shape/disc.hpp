@@ -54,10 +54,7 @@ struct Host<Disc> : HostOfShape {
         b.s.discs.push() = {b.point(centre), Convert<N>::direction(n), b.length(r), make_tag(place, o.fill)};
     }
     template <class N>
-    static Ball bound(const Disc<N>& s)
-    {
-        return ball_around(s.centre, value(s.radius));
-    }
+    static Ball bound(const Disc<N>& s) { return ball_around(s.centre, value(s.radius)); }
 
     template <class R>
     static auto random(R& r)

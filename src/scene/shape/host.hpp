@@ -12,7 +12,6 @@
 #pragma once
 
 #include "../convert.hpp"
-#include "../geometry.hpp"
 #include "../reader.hpp"
 
 namespace qray::scene {
@@ -35,10 +34,7 @@ struct HostOfShape {
     static double widest(const Object&) { return HUGE_VAL; }
     // How large the structure is, in units of what it may be in the moved and scaled scene; where coordinates say, 0.
     template <class N>
-    static double range(const Object&)
-    {
-        return 0;
-    }
+    static double range(const Object&) { return 0; }
     // Does it reach as far as the scene allows?
     static bool is_endless(const Object&) { return false; }
 };

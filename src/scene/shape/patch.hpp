@@ -57,17 +57,9 @@ struct Host<Patch> : HostOfCorners {
                                   make_tag(place, o.fill)};
         }
     }
-    template <class N>
-    static Ball bound(const Patch<N>& s)
-    {
-        return ball_around(s.middle, value(s.bound));
-    }
 
     template <class R>
-    static auto random(R& r)
-    {
-        return r.figure("pp", 3 + r.below(3), true);
-    }
+    static auto random(R& r) { return r.figure("pp", 3 + r.below(3), true); }
 };
 
 } // namespace qray::scene

@@ -41,17 +41,9 @@ struct Host<Polygon> : HostOfCorners {
         b.s.polygons.push() = {Convert<N>::direction(unit(g)), around.middle, around.radius, first, o.count,
                                make_tag(place, o.fill)};
     }
-    template <class N>
-    static Ball bound(const Polygon<N>& s)
-    {
-        return ball_around(s.middle, value(s.bound));
-    }
 
     template <class R>
-    static auto random(R& r)
-    {
-        return r.figure("p", 3 + r.below(8), false);
-    }
+    static auto random(R& r) { return r.figure("p", 3 + r.below(8), false); }
 };
 
 } // namespace qray::scene
