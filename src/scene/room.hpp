@@ -18,21 +18,21 @@ struct Room {
 class Layout {
 public:
     static constexpr size_t alignment = 64;
-    explicit Layout(uint8_t* at) : at_(at) {}
+    explicit Layout(uint8_t* at) : base(at) {}
 
     template <class T>
     T* array(size_t count)
     {
         static_assert(alignof(T) <= alignment && std::is_trivially_copyable_v<T>);
-        T* const here = at_ == nullptr ? nullptr : reinterpret_cast<T*>(at_ + used_);
-        used_ += (count * sizeof(T) + alignment - 1) / alignment * alignment;
+        T* const here = base == nullptr ? nullptr : reinterpret_cast<T*>(base + taken);
+        taken += (count * sizeof(T) + alignment - 1) / alignment * alignment;
         return here;
     }
-    size_t used() const { return used_; }
+    size_t used() const { return taken; }
 
 private:
-    uint8_t* at_;
-    size_t used_ = 0;
+    uint8_t* base;
+    size_t taken = 0;
 };
 
 // Runs cut(Layout&) over the room where it is large enough, else over none; returns how many bytes are needed.

@@ -6,26 +6,24 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <algorithm>
+
 namespace qray::scene {
 
 void Source::put(const char* text, size_t size)
 {
     while (size != 0) {
-        const size_t room = sizeof block_ - used_;
-        const size_t part = size < room ? size : room;
-        memcpy(block_ + used_, text, part);
-        used_ += part;
+        const size_t part = std::min(size, sizeof block - used);
+        memcpy(block + used, text, part);
+        used += part;
         text += part;
         size -= part;
-        if (used_ == sizeof block_)
+        if (used == sizeof block)
             finish();
     }
 }
 
-void Source::put(const char* text)
-{
-    put(text, strlen(text));
-}
+void Source::put(const char* text) { put(text, strlen(text)); }
 
 void Source::print(const char* format, ...)
 {
@@ -56,33 +54,27 @@ void Source::comment(const char* text)
     put(last == '\\' ? ".\n" : "\n");
 }
 
-void Source::number(int64_t value)
+void Source::number(int64_t value) { print("%" PRId64, value); }
+
+// Is it a whole number smaller than this? -0 is none.
+static bool is_whole(double value, double below)
 {
-    print("%" PRId64, value);
+    return fabs(value) < below && value == floor(value) && !(value == 0 && signbit(value));
 }
 
 void Source::number(float value)
 {
     const double wide = static_cast<double>(value);
-    if (fabs(wide) < 0x1p24 && wide == floor(wide) && !(wide == 0 && signbit(wide)))
-        print("%.0f", wide);
-    else
-        print("%af", wide);
+    print(is_whole(wide, 0x1p24) ? "%.0f" : "%af", wide);
 }
 
-void Source::number(double value)
-{
-    if (fabs(value) < 0x1p31 && value == floor(value) && !(value == 0 && signbit(value)))
-        print("%.0f", value);
-    else
-        print("%a", value);
-}
+void Source::number(double value) { print(is_whole(value, 0x1p31) ? "%.0f" : "%a", value); }
 
 bool Source::finish()
 {
-    good_ = good_ && write_(to_, block_, used_);
-    used_ = 0;
-    return good_;
+    good = good && write(sink, block, used);
+    used = 0;
+    return good;
 }
 
 } // namespace qray::scene

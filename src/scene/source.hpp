@@ -10,7 +10,7 @@ class Source {
 public:
     // write(to, bytes, size) takes the text in blocks. Where it returns false, it is not called again.
     using Write = bool (*)(void* to, const char* bytes, size_t size);
-    Source(Write write, void* to) : write_(write), to_(to) {}
+    Source(Write how, void* to) : write(how), sink(to) {}
     Source(const Source&) = delete;
     Source& operator=(const Source&) = delete;
 
@@ -31,11 +31,11 @@ public:
 private:
     void put(const char* text, size_t size);
 
-    Write write_;
-    void* to_;
-    bool good_ = true;
-    size_t used_ = 0;
-    char block_[4096];
+    Write write;
+    void* sink;
+    bool good = true;
+    size_t used = 0;
+    char block[4096];
 };
 
 } // namespace qray::scene
