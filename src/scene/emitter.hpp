@@ -214,7 +214,7 @@ private:
         requires std::is_aggregate_v<T>
     void value(const T& v)
     {
-        with_members(v, [this](const auto&... members) { list(members...); });
+        with_members(v, [this](const auto&... members) { this->list(members...); });
     }
 };
 

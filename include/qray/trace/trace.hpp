@@ -32,14 +32,15 @@ QRAY_INLINE constexpr Surface<N> surface_at(const Scene<N, E>& scene, const Ray<
 {
     Point<N> q;
     Direction<N> g, n;
-    with_shape(scene, hit.kind, hit.index, [&](const auto& shape, Kind, uint32_t) __attribute__((always_inline)) {
+    const auto at = [&]<class Shape>(const Shape& shape, Kind, uint32_t) __attribute__((always_inline)) {
         surface_of(shape, corners_of(scene), ray, hit.t, hit.local, q, g);
-        if constexpr (shape.is_smooth)
+        if constexpr (Shape::is_smooth)
             n = shading_normal(shape, corners_of(scene), ray);
         else
             n = g;
         return true;
-    });
+    };
+    with_shape(scene, hit.kind, hit.index, at);
     const auto n_d = N::unit(dot<N>(n, ray.direction));
     const bool turned = n_d > N::zero;
     if constexpr (keeps_step<N>) {
