@@ -204,17 +204,9 @@ bool meets(Check& check, S shape, Ray<N> ray, typename N::Length& t, typename N:
     hide(ray);
     typename N::Length other{};
     Local<N> local{};
-    bool alone = false, after = false;
-    if constexpr (requires { shape.axis; }) {
-        alone = intersect(shape, ray, limit, other, local);
-        after = !surely_missed(shape, RejectRay<N>(ray)) && intersect<true>(shape, ray, limit, t, local);
-    } else if constexpr (requires { shape.inverse_radius; }) {
-        alone = intersect(shape, ray, limit, other, local);
-        after = !surely_missed(shape, RejectRay<N>(ray)) && intersect<true>(shape, ray, limit, t, local);
-    } else {
-        alone = intersect(shape, ray, limit, other);
-        after = !surely_missed(shape, RejectRay<N>(ray)) && intersect(shape, ray, limit, t);
-    }
+    const bool alone = intersect(shape, Corners<N>{}, ray, limit, other, local);
+    const bool after =
+        !surely_missed(shape, RejectRay<N>(ray)) && intersect<true>(shape, Corners<N>{}, ray, limit, t, local);
     QRAY_HOLDS(alone == after && (!alone || other == t));
     return after;
 }
@@ -608,7 +600,9 @@ struct Figure {
     {
         hide(*this);
         hide(ray);
-        return !surely_missed(shape, RejectRay<N>(ray)) && intersect(shape, at, ray, N::length_max, t);
+        Local<N> local{};
+        return !surely_missed(shape, RejectRay<N>(ray))
+            && intersect(shape, Corners<N>{at, nullptr}, ray, N::length_max, t, local);
     }
 };
 
@@ -688,8 +682,9 @@ QRAY_CASE(RayThroughACornerOfSixTrianglesHasOneOwner)
                                             M::direction((away * -1).turned(turned), 16));
                         hide(ray);
                         int owners = 0;
+                        Local<N> local{};
                         for (const Polygon<N>& f : fan)
-                            owners += intersect(f, at, ray, N::length_max, t);
+                            owners += intersect(f, Corners<N>{at, nullptr}, ray, N::length_max, t, local);
                         QRAY_HOLDS(owners == 1);
                     }
     }
@@ -888,7 +883,7 @@ QRAY_CASE(ConeSeenFromInsideIsMetOnce)
     for (const Triple& d : List{Triple{5, 0, 0}, Triple{0, -5, 0}, Triple{3, 4, 0}, Triple{-4, 3, 0}}) {
         const Ray<N> ray = M::ray(M::point({0, 0, 1}), M::direction(d, 5));
         QRAY_HOLDS(meets(check, s, ray, t) && near<N>(t, number<Length>(9, 4), little));
-        QRAY_HOLDS(crossings(s, ray, N::length_max) == 1);
+        QRAY_HOLDS(crossings(s, Corners<N>{}, ray, N::length_max) == 1);
     }
     QRAY_HOLDS(!meets(check, s, M::ray(M::point({0, 0, 1}), M::direction({0, 0, -1})), t));
 }
@@ -1006,13 +1001,13 @@ QRAY_CASE(ThousandBouncesBetweenTwoBallsKeepTheDirectionUnit)
         const Sphere<N>& s = balls[(i + 1) % 2];
         hide(ray);
         Local<N> local{};
-        const bool hit = intersect(s, ray, N::length_max, t, local);
+        const bool hit = intersect(s, Corners<N>{}, ray, N::length_max, t, local);
         QRAY_HOLDS(hit);
         if (!hit)
             return;
         Point<N> q{};
         Direction<N> n{};
-        surface_of(s, local, ray.direction, q, n);
+        surface_of(s, Corners<N>{}, ray, t, local, q, n);
         const auto n_d = N::unit(dot<N>(n, ray.direction));
         ray = M::ray(step_off<N>(q, n, true), mirrored<N>(ray.direction, n, n_d), tags[(i + 1) % 2], true);
         const auto d = ray.direction;

@@ -35,9 +35,45 @@ int32_t fine_for(double size)
     return fine;
 }
 
-template <class N>
-struct SphereOf {
+// What tests ask of every shape. Derived holds `shape` and says where its corners are.
+template <class N, class Derived>
+struct Asked {
     using Length = typename N::Length;
+    bool hit(const Ray<N>& ray, Length limit, Length& t) const
+    {
+        Local<N> local{};
+        return intersect(self().shape, self().corner_points(), ray, limit, t, local);
+    }
+    // Where the ray meets it, and the normal there; both zero where it does not.
+    void surface(const Ray<N>& ray, Vec3& point, Vec3& normal) const
+    {
+        Length t{};
+        Local<N> local{};
+        Point<N> q{};
+        Direction<N> n{};
+        if (intersect(self().shape, self().corner_points(), ray, N::length_max, t, local))
+            surface_of(self().shape, self().corner_points(), ray, t, local, q, n);
+        point = value(q);
+        normal = value(n);
+    }
+    Vec3 normal(const Ray<N>& ray) const
+    {
+        Vec3 point, n;
+        surface(ray, point, n);
+        return n;
+    }
+    int crossings(const Ray<N>& ray, Length distance) const
+    {
+        return qray::crossings(self().shape, self().corner_points(), ray, distance);
+    }
+    qray::Corners<N> corner_points() const { return {}; }
+
+private:
+    const Derived& self() const { return static_cast<const Derived&>(*this); }
+};
+
+template <class N>
+struct SphereOf : Asked<N, SphereOf<N>> {
     Sphere<N> shape{};
 
     SphereOf(const Vec3& centre, double r, Tag tag = make_tag(0, 0)) : SphereOf(centre, r, tag, fine_for<N>(r)) {}
@@ -50,35 +86,10 @@ struct SphereOf {
         shape.tag = tag;
     }
     double radius() const { return std::ldexp(value(shape.radius), -shape.fine); }
-    bool hit(const Ray<N>& ray, Length limit, Length& t) const
-    {
-        Local<N> local{};
-        return intersect(shape, ray, limit, t, local);
-    }
-    // Where the ray meets it, and the normal there; both zero where it does not.
-    void surface(const Ray<N>& ray, Vec3& point, Vec3& normal) const
-    {
-        Length t{};
-        Local<N> local{};
-        Point<N> q{};
-        Direction<N> n{};
-        if (intersect(shape, ray, N::length_max, t, local))
-            surface_of(shape, local, ray.direction, q, n);
-        point = value(q);
-        normal = value(n);
-    }
-    Vec3 normal(const Ray<N>& ray) const
-    {
-        Vec3 point, n;
-        surface(ray, point, n);
-        return n;
-    }
-    int crossings(const Ray<N>& ray, Length distance) const { return qray::crossings(shape, ray, distance); }
 };
 
 template <class N>
-struct DiscOf {
-    using Length = typename N::Length;
+struct DiscOf : Asked<N, DiscOf<N>> {
     Disc<N> shape{};
 
     DiscOf(const Vec3& centre, const Vec3& normal, double r, Tag tag = make_tag(0, 0))
@@ -88,15 +99,11 @@ struct DiscOf {
         shape.radius = make<N>::length(r);
         shape.tag = tag;
     }
-    bool hit(const Ray<N>& ray, Length limit, Length& t) const { return intersect(shape, ray, limit, t); }
-    Vec3 normal(const Ray<N>&) const { return value(normal_at(shape)); }
-    int crossings(const Ray<N>& ray, Length distance) const { return qray::crossings(shape, ray, distance); }
 };
 
 // From base to apex, with a radius at either end.
 template <class N>
-struct ConeOf {
-    using Length = typename N::Length;
+struct ConeOf : Asked<N, ConeOf<N>> {
     using M = make<N>;
     Cone<N> shape{};
 
@@ -122,40 +129,16 @@ struct ConeOf {
         shape.sine = M::unit(growth * cosine);
         shape.tag = tag;
     }
-    bool hit(const Ray<N>& ray, Length limit, Length& t) const
-    {
-        Local<N> local{};
-        return intersect(shape, ray, limit, t, local);
-    }
-    // Where the ray meets it, and the normal there; both zero where it does not.
-    void surface(const Ray<N>& ray, Vec3& point, Vec3& normal) const
-    {
-        Length t{};
-        Local<N> local{};
-        Point<N> q{};
-        Direction<N> n{};
-        if (intersect(shape, ray, N::length_max, t, local))
-            surface_of(shape, local, ray.direction, q, n);
-        point = value(q);
-        normal = value(n);
-    }
-    Vec3 normal(const Ray<N>& ray) const
-    {
-        Vec3 point, n;
-        surface(ray, point, n);
-        return n;
-    }
-    int crossings(const Ray<N>& ray, Length distance) const { return qray::crossings(shape, ray, distance); }
 };
 
 // Corners, and the ball that holds them.
 template <class N>
-struct Corners {
+struct Figure {
     std::vector<Point<N>> at;
     Point<N> middle{};
     typename N::Length bound{};
 
-    explicit Corners(const std::vector<Vec3>& corners)
+    explicit Figure(const std::vector<Vec3>& corners)
     {
         Vec3 low = corners[0], high = corners[0];
         for (const Vec3& c : corners) {
@@ -173,9 +156,8 @@ struct Corners {
 };
 
 template <class N>
-struct PolygonOf {
-    using Length = typename N::Length;
-    Corners<N> corners;
+struct PolygonOf : Asked<N, PolygonOf<N>> {
+    Figure<N> corners;
     Polygon<N> shape{};
 
     explicit PolygonOf(const std::vector<Vec3>& c, Tag tag = make_tag(0, 0)) : corners(c)
@@ -187,22 +169,13 @@ struct PolygonOf {
         shape.count = static_cast<uint32_t>(c.size());
         shape.tag = tag;
     }
-    bool hit(const Ray<N>& ray, Length limit, Length& t) const
-    {
-        return intersect(shape, corners.at.data(), ray, limit, t);
-    }
-    Vec3 normal(const Ray<N>&) const { return value(normal_at(shape)); }
-    int crossings(const Ray<N>& ray, Length distance) const
-    {
-        return qray::crossings(shape, corners.at.data(), ray, distance);
-    }
+    qray::Corners<N> corner_points() const { return {corners.at.data(), nullptr}; }
 };
 
 // One triangle with a normal at each corner.
 template <class N>
-struct PatchOf {
-    using Length = typename N::Length;
-    Corners<N> corners;
+struct PatchOf : Asked<N, PatchOf<N>> {
+    Figure<N> corners;
     std::vector<Direction<N>> normals;
     Patch<N> shape{};
 
@@ -217,19 +190,8 @@ struct PatchOf {
         shape.second = 1;
         shape.tag = tag;
     }
-    bool hit(const Ray<N>& ray, Length limit, Length& t) const
-    {
-        return intersect(shape, corners.at.data(), ray, limit, t);
-    }
-    Vec3 normal(const Ray<N>&) const { return value(shape.normal); }
-    Vec3 shading(const Ray<N>& ray) const
-    {
-        return value(shading_normal(shape, corners.at.data(), normals.data(), ray));
-    }
-    int crossings(const Ray<N>& ray, Length distance) const
-    {
-        return qray::crossings(shape, corners.at.data(), ray, distance);
-    }
+    Vec3 shading(const Ray<N>& ray) const { return value(shading_normal(shape, corner_points(), ray)); }
+    qray::Corners<N> corner_points() const { return {corners.at.data(), normals.data()}; }
 };
 
 // What every test of a shape says first.

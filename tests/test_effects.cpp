@@ -6,19 +6,19 @@ namespace {
 
 using namespace qray;
 
-// Every flag there is, but windows. One more in the header makes the first test fail.
+// Every flag there is. One more in the header makes the first test fail.
 constexpr bool Effects::* flags[] = {
     &Effects::sphere, &Effects::disc, &Effects::cone, &Effects::polygon, &Effects::patch,
     &Effects::checker, &Effects::stripes, &Effects::gradient, &Effects::rings, &Effects::noise,
     &Effects::marble, &Effects::wood, &Effects::brick,
     &Effects::light, &Effects::sun, &Effects::shadow, &Effects::see_through, &Effects::highlight,
     &Effects::fractional_shine, &Effects::mirror, &Effects::transmit, &Effects::eye_surface,
-    &Effects::grid, &Effects::adaptive, &Effects::tree,
+    &Effects::light_surface, &Effects::grid, &Effects::adaptive, &Effects::tree,
 };
 
 TEST(Effects, AreFlagsAndADepth)
 {
-    EXPECT_EQ(sizeof(Effects), sizeof flags / sizeof flags[0] + sizeof(Effects::windows) + sizeof(Effects::depth));
+    EXPECT_EQ(sizeof(Effects), sizeof flags / sizeof flags[0] + sizeof(Effects::depth));
 }
 
 TEST(Effects, NoneAreSetToBeginWith)
@@ -56,16 +56,6 @@ TEST(Effects, HoldOthersFlagByFlag)
         EXPECT_FALSE(most.holds(all));
         EXPECT_TRUE(all.holds(most));
     }
-}
-
-// Only a compiled scene has them, and a tracer that knows of none draws it, too, but not by them.
-TEST(Effects, WindowsAreNotOfEverything)
-{
-    Effects windows;
-    EXPECT_FALSE(windows.windows || everything(5).windows);
-    windows.windows = true;
-    EXPECT_FALSE(everything(5).holds(windows));
-    EXPECT_TRUE(windows.holds(windows));
 }
 
 TEST(Effects, HoldNoGreaterDepth)

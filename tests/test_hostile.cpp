@@ -71,7 +71,7 @@ template <class N>
 void expect_end(const Chord& chord, bool named)
 {
     ConeTrial<N> trial;
-    auto o = trial.bench.object(qray::scene::Shape::cone);
+    auto o = trial.bench.object(qray::Kind::cone);
     o.a = chord.a;
     o.b = chord.b;
     o.ra = chord.ra;

@@ -1,4 +1,4 @@
-#include <qray/vector/ray.hpp>
+#include <qray/trace/hit.hpp>
 
 #include "number_helpers.hpp"
 

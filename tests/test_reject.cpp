@@ -94,7 +94,8 @@ TYPED_TEST(NarrowTest, NoTriangleThatIsMetAtACornerIsTurnedAway)
                     continue;
                 const auto ray = M::ray(from, to - from);
                 typename N::Length t{};
-                if (!intersect(shape, s.vertices.data, ray, N::length_max, t))
+                Local<N> local{};
+                if (!intersect(shape, qray::Corners<N>{s.vertices.data, s.normals.data}, ray, N::length_max, t, local))
                     continue;
                 met++;
                 wrong += surely_missed(shape, RejectRay<N>(ray));

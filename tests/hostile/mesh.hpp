@@ -120,7 +120,7 @@ public:
         for (size_t i = 0; i < m.faces.size(); i++) {
             const auto& f = m.faces[i];
             const bool patch = f.size() == 3 && i % 3 == 0;
-            auto o = Bench<N>::object(patch ? qray::scene::Shape::patch : qray::scene::Shape::polygon);
+            auto o = Bench<N>::object(patch ? qray::Kind::patch : qray::Kind::polygon);
             o.vertex = d.vertex_count;
             o.count = static_cast<uint32_t>(f.size());
             for (const uint32_t c : f) {
@@ -208,7 +208,7 @@ private:
         qray::for_each_shape(scene, [&](const auto& shape, qray::Kind, uint32_t) {
             typename N::Length t{};
             qray::Local<N> local{};
-            if (qray::intersect_in(scene, shape, ray, N::length_max, t, local)) {
+            if (qray::intersect(shape, corners_of(scene), ray, N::length_max, t, local)) {
                 crossings++;
                 least = t < least ? t : least;
             }

@@ -44,10 +44,10 @@ struct Bench {
         const qray::scene::Settings settings;
         qray::scene::Builder<N>(from, settings, storage).build(error);
     }
-    static qray::scene::Object object(qray::scene::Shape shape)
+    static qray::scene::Object object(qray::Kind kind)
     {
         qray::scene::Object o;
-        o.shape = shape;
+        o.kind = kind;
         return o;
     }
 };
@@ -107,7 +107,7 @@ struct SphereTrial {
     {
         radius = random_size(random, regime);
         centre = random_place(random, regime, radius);
-        auto o = bench.object(qray::scene::Shape::sphere);
+        auto o = bench.object(qray::Kind::sphere);
         o.a = centre;
         o.ra = radius;
         bench.build(o);
@@ -163,7 +163,7 @@ struct DiscTrial {
         radius = random_size(random, regime);
         centre = random_place(random, regime, 1.5 * radius);
         normal = direction(random);
-        auto o = bench.object(qray::scene::Shape::disc);
+        auto o = bench.object(qray::Kind::disc);
         o.a = centre;
         o.b = normal;
         o.ra = radius;
@@ -214,7 +214,8 @@ struct PlaneTrial : DiscTrial<N> {
         this->radius = std::sqrt((world - 0.25) * (world - 0.25) - height * height);
         this->centre = n * height;
         this->normal = n;
-        auto o = this->bench.object(Shape::plane);
+        auto o = this->bench.object(qray::Kind::disc);
+        o.ra = HUGE_VAL; // a plane
         o.a = this->centre + across(random, n) * random.in(0, 30);
         o.b = n;
         this->bench.build(o);
@@ -267,7 +268,7 @@ struct ConeTrial {
         const double bound = std::sqrt(height * height / 4 + std::fmax(ra, rb) * std::fmax(ra, rb));
         axis = direction(random);
         base = random_place(random, regime, bound + 0.1) - axis * (height / 2);
-        auto o = bench.object(Shape::cone);
+        auto o = bench.object(qray::Kind::cone);
         o.a = base;
         o.b = base + axis * height;
         o.ra = ra;
@@ -446,7 +447,7 @@ struct PolygonTrial {
     {
         do {
             figure.make(random, regime, 3 + random.below(10));
-            auto o = bench.object(qray::scene::Shape::polygon);
+            auto o = bench.object(qray::Kind::polygon);
             o.count = figure.count;
             for (uint32_t i = 0; i < o.count; i++)
                 bench.from.vertices[i] = figure.corners[i];
@@ -483,7 +484,7 @@ struct PatchTrial {
         using namespace qray::scene;
         do {
             figure.make(random, regime, 3);
-            auto o = bench.object(Shape::patch);
+            auto o = bench.object(qray::Kind::patch);
             o.count = 3;
             for (uint32_t i = 0; i < 3; i++) {
                 bench.from.vertices[i] = figure.corners[i];

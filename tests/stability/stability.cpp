@@ -64,7 +64,7 @@ struct Bundle {
             typename N::Length t{};
             qray::Local<N> local{};
             hits += !surely_missed(b.trial.shape, b.narrow[static_cast<size_t>(i)])
-                && qray::intersect_in(scene, b.trial.shape, b.rays[i], N::length_max, t, local);
+                && intersect(b.trial.shape, corners_of(scene), b.rays[i], N::length_max, t, local);
         }
         return hits;
     }

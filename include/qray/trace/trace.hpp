@@ -205,8 +205,8 @@ QRAY_NOINLINE constexpr bool touches_edge(const Scene<N, E>& scene, Ray<N> ray, 
 {
     constexpr auto parallel = N::fraction(1023, 1024);
     bool touches = false;
-    for_each_shape(scene, [&](const auto& shape, Kind, uint32_t) {
-        if constexpr (shape.has_corners) {
+    for_each_shape(scene, [&]<class S>(const S& shape, Kind, uint32_t) {
+        if constexpr (S::has_corners) {
             typename N::Length t{};
             Local<N> local{};
             const auto cosine = N::unit(dot<N>(left, shape.normal));
