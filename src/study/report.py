@@ -1,4 +1,4 @@
-"""make report: measures what README.md's tables say and writes them between their markers,
+"""make report: measures what the tables of README.md and src/study/README.md say and writes them between their markers,
 
     <!-- report:NAME -->  ...  <!-- /report -->
 
@@ -9,13 +9,12 @@ import re
 import sys
 
 sys.dont_write_bytecode = True
-import floor  # noqa: E402
 import ladder  # noqa: E402
 import runs  # noqa: E402
 import text as texts  # noqa: E402
 from text import count, table  # noqa: E402
 
-README = "README.md"
+PAGES = ["README.md", "src/study/README.md"]
 FOLDER = "build/study"
 # Scenes of the table of boards, and the size that all their firmwares share.
 BOARD_SCENES = {"scenes/floor.nff": "32x24", "scenes/showcase.nff": "16x12"}
@@ -64,12 +63,11 @@ def effects():
     return (f"{ladder.TITLE} q32, 32 × 24 pixels:\n\n" + table(head, rows))
 
 
-# What README may hold, and the words that its text must hold to be whole.
+# What the pages may hold, and the words that its text must hold to be whole.
 REPORTS = {
     "boards": (boards, lambda: list(BOARD_SCENES) + [f"| {short} | {n} |" for short in runs.BOARDS.values()
                                                      for n in runs.numbers()]),
     **texts.REPORTS,
-    **floor.REPORTS,
     "effects": (effects, lambda: ["+ " + name for name, *_ in ladder.STEPS[1:]]),
 }
 
@@ -78,46 +76,52 @@ def marker(name):
     return re.compile(rf"(<!-- report:{re.escape(name)} -->\n).*?(<!-- /report -->)", re.S)
 
 
+def pages():
+    """The pages that hold tables, as one text."""
+    text = ""
+    for page in filter(os.path.exists, PAGES):
+        with open(page) as file:
+            text += file.read()
+    return text
+
+
 def problems(text, reports):
-    """What is missing or not known in README's tables."""
-    out = []
-    for name, content in re.findall(r"<!-- report:(\S+) -->(.*?)<!-- /report -->", text, re.S):
-        if name not in reports and not content.strip():
-            out.append(f"{README}: report:{name} is empty")
+    """What is missing or not known in the tables."""
+    out = [f"report:{name} is empty" for name, content
+           in re.findall(r"<!-- report:(\S+) -->(.*?)<!-- /report -->", text, re.S)
+           if name not in reports and not content.strip()]
     for name, (_, needs) in reports.items():
         found = marker(name).search(text)
         if found is None:
-            out.append(f"{README}: no '<!-- report:{name} -->' ... '<!-- /report -->'")
+            out.append(f"no '<!-- report:{name} -->' ... '<!-- /report -->' in {' or '.join(PAGES)}")
             continue
-        out += [f"{README}: report:{name} says nothing of '{n}'; `make report` writes it again"
+        out += [f"report:{name} says nothing of '{n}'; `make report` writes it again"
                 for n in needs() if n not in found[0]]
     return out
 
 
 def put(name, made, path):
-    """Writes a report to a file of its own and between its markers in README, if that has them."""
+    """Writes a report to a file of its own and between its markers, in the page that has them."""
     with open(path, "w") as file:
         file.write(made)
-    text = ""
-    if os.path.exists(README):  # as it is now: others may have edited it meanwhile
-        with open(README) as file:
+    for page in filter(os.path.exists, PAGES):
+        with open(page) as file:  # as it is now: others may have edited it meanwhile
             text = file.read()
-    new, number = marker(name).subn(lambda m: m[1] + made + m[2], text)
-    if number == 0:
-        print(f"{README} has no '<!-- report:{name} -->'; see {path}", file=sys.stderr)
-    elif new != text:
-        with open(README + ".part", "w") as file:
-            file.write(new)
-        os.replace(README + ".part", README)
+        # Paths of figures are those of the repository; a page says them from where it stands.
+        here = made.replace("](src/study/", "](") if page.startswith("src/study/") else made
+        new, number = marker(name).subn(lambda m: m[1] + here + m[2], text)
+        if new != text:
+            with open(page + ".part", "w") as file:
+                file.write(new)
+            os.replace(page + ".part", page)
+        if number:
+            return
+    print(f"no page has '<!-- report:{name} -->'; see {path}", file=sys.stderr)
 
 
 def main():
-    text = ""
-    if os.path.exists(README):
-        with open(README) as file:
-            text = file.read()
     if sys.argv[1:] == ["--check"]:
-        found = problems(text, REPORTS)
+        found = problems(pages(), REPORTS)
         print("\n".join(found) if found else "all reports are whole")
         return found != []
     names = sys.argv[1:] or list(REPORTS)
@@ -125,8 +129,7 @@ def main():
     for name in names:
         if name not in REPORTS:
             runs.fail(f"there is no report '{name}'; reports are {', '.join(REPORTS)}")
-        made = REPORTS[name][0]()
-        put(name, made, f"{FOLDER}/{name}.md")
+        put(name, REPORTS[name][0](), f"{FOLDER}/{name}.md")
     return runs.failures != []
 
 

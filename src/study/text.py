@@ -176,7 +176,7 @@ def accuracy_report():
 REPORTS = {
     "accuracy": (accuracy_report,
                  lambda: sorted(glob.glob("scenes/*.nff")) + [f"| {n} |" for n in runs.numbers()]),
-    "study": (study_report, lambda: [f"{FIGURES}/{s.lower()}.svg" for b, s in runs.BOARDS.items()
+    "study": (study_report, lambda: [f"figures/{s.lower()}.svg" for b, s in runs.BOARDS.items()
                                      if b in study_file.BOARDS]
               + [f"| {runs.BOARDS[b]} | {n} |" for b in study_file.BOARDS for n in runs.numbers()]
               + [figures.name_of(s) for s in study_file.SCENES]),

@@ -1,6 +1,6 @@
 """What robustness costs in a whole picture: the firmware of a scene of balls and a plane, and the same with the
 forms of a textbook in place of robust ones, in the same template and behind the same reject. Writes
-build/robustness.md and, between its markers, README.md.
+build/robustness.md and, between its markers, the page that has them.
 
     lean.py [SCENE [WxH]]    of another such scene: prints only
 
@@ -157,9 +157,9 @@ def problems(readme):
     """What README's table lacks."""
     found = report.marker("robustness").search(readme)
     if found is None:
-        return ["README.md has no '<!-- report:robustness -->' ... '<!-- /report -->'"]
+        return ["no '<!-- report:robustness -->' ... '<!-- /report -->'"]
     rows = {line.split("|")[1].strip(): line.count("|") for line in found[0].splitlines() if line.startswith("| ")}
-    return [f"README.md: report:robustness has not one whole row '{form}'; `make robustness` writes it again"
+    return [f"report:robustness has not one whole row '{form}'; `make robustness` writes it again"
             for form in FORMS if rows.get(form) != len(BOARDS) + 4]
 
 

@@ -1,5 +1,5 @@
 """make stability: throws the same random rays at qray's forms and at textbook ones, counts the instructions
-of both, and writes build/stability.csv, build/stability.md and, between its markers, README.md.
+of both, and writes build/stability.csv, build/stability.md and, between its markers, the page that has them.
 
     stability.py [--rays N] [--seed N]"""
 
@@ -170,7 +170,7 @@ def problems(readme):
     """What README's tables lack: a list of rows."""
     found = report.marker("stability").search(readme)
     if found is None:
-        return ["README.md has no '<!-- report:stability -->' ... '<!-- /report -->'"]
+        return ["no '<!-- report:stability -->' ... '<!-- /report -->'"]
     rows = [[c.strip() for c in line.strip("| ").split("|")] for line in found[0].splitlines()
             if line.startswith("| ")]
 
@@ -187,7 +187,7 @@ def problems(readme):
     for names, values in wanted:
         same = [r for r in rows if r[:len(names)] == names and len(r) == len(names) + values]
         if len(same) != 1 or not all(map(value, same[0][len(names):])):
-            out.append(f"README.md: report:stability has not one whole row {' | '.join(names)}; "
+            out.append(f"report:stability has not one whole row {' | '.join(names)}; "
                        "`make stability` writes it again")
     return out
 

@@ -35,8 +35,7 @@ class Table(unittest.TestCase):
         self.assertIn("fails in ACase.", text)
 
     def test_readme(self):
-        with open("README.md") as file:
-            self.assertEqual(lean.problems(file.read()), [])
+        self.assertEqual(lean.problems(lean.report.pages()), [])
 
 
 class Headers(unittest.TestCase):
