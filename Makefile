@@ -12,7 +12,8 @@
 CXX      := $(if $(filter default,$(origin CXX)),g++,$(CXX))
 OPTIMISE ?= -O2
 STATIC   ?= -static
-PYTHON   := python3 -B
+# Debian's own, which sees Debian's packages.
+PYTHON   := $(or $(wildcard /usr/bin/python3),python3) -B
 
 WARNINGS := -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Werror
 COMMON   := -std=c++20 $(WARNINGS) -ffp-contract=off -fno-math-errno -Iinclude -Isrc -MMD -MP
@@ -133,7 +134,8 @@ test: | $(filter deps,$(MAKECMDGOALS))
 	    $(PYTHON) tests/run.py $(TESTS) && exit $$built
 
 PACKAGES := g++ libgtest-dev clang libclang-rt-14-dev gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm \
-    gcc-riscv64-unknown-elf qemu-system-misc valgrind python3 netpbm
+    gcc-riscv64-unknown-elf qemu-system-misc valgrind python3 \
+    python3-matplotlib netpbm
 deps:
 	@dpkg -s $(PACKAGES) > /dev/null 2>&1 || { \
 	    root=$$([ $$(id -u) = 0 ] || echo sudo); \

@@ -8,7 +8,6 @@ import subprocess
 import sys
 import unittest
 import xml.etree.ElementTree
-import zlib
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, "src/study")
@@ -17,7 +16,6 @@ import ladder  # noqa: E402
 import report  # noqa: E402
 import settings  # noqa: E402
 import study  # noqa: E402
-import svg  # noqa: E402
 
 
 def make(*arguments):
@@ -31,24 +29,6 @@ class Parts(unittest.TestCase):
     def test_frontier(self):
         points = [(5, 30), (1, 10), (4, 10), (2, 20), (3, 15), (5, 31), (9, 31)]
         self.assertEqual(figures.frontier_of(points), [(1, 10), (2, 20), (5, 31)])
-
-    def test_axis(self):
-        axis = svg.Axis(10, 1000, 0, 200, log=True)
-        self.assertAlmostEqual(axis(100), 100)
-        self.assertEqual([round(v) for v, named in axis.ticks() if named], [10, 20, 50, 100, 200, 500, 1000])
-        self.assertEqual([v for v, _ in svg.Axis(0, 10, 0, 1).ticks()], [0, 2, 4, 6, 8, 10])
-
-    def test_png(self):
-        data = svg.png(2, 2, bytes(range(12)))
-        self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
-        length = int.from_bytes(data[33:37], "big")
-        self.assertEqual(data[37:41], b"IDAT")
-        self.assertEqual(zlib.decompress(data[41:41 + length]), b"\0\0\1\2\3\4\5\0\6\7\x08\x09\x0a\x0b")
-
-    def test_heat(self):
-        self.assertEqual(figures.difference(bytes([10, 10, 10]), bytes([10, 10, 10])), bytes([0, 0, 0]))
-        self.assertEqual(figures.difference(bytes([10, 10, 10]), bytes([10, 13, 9])),
-                         bytes(figures.HEAT[2][1]))
 
     def test_ladder_says_one_thing_more_in_each_step(self):
         steps = ladder.write("build/study/ladder")
