@@ -17,10 +17,12 @@ sys.dont_write_bytecode = True
 import elf as elf_file  # noqa: E402
 
 
-def trace(command, image, code):
-    """By address: how often an instruction ran, and how often the next to run was not the one below it."""
-    runs, taken = collections.Counter(), collections.Counter()
-    blocks, block = {}, []
+def trace(command, image, code, step):
+    """By address: how often an instruction ran, and how often the next to run was not the one below it; and how many
+    ran by step, for which `step` names addresses. What has no name counts for the step before."""
+    runs, taken, steps = collections.Counter(), collections.Counter(), collections.Counter()
+    blocks, block, cached = {}, [], {}
+    current, last, below = "output", None, None
     with tempfile.TemporaryDirectory() as folder:
         pipe = os.path.join(folder, "trace")
         os.mkfifo(pipe)
@@ -29,7 +31,6 @@ def trace(command, image, code):
                              f"enable=on,target=native,arg={folder}/picture", "-kernel", image]
         process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL)
-        last, below = None, None
         with open(pipe, errors="replace") as log:
             for line in log:
                 if line.startswith("Trace"):
@@ -37,15 +38,25 @@ def trace(command, image, code):
                     runs[pc] += 1
                     if pc != below:
                         taken[last] += 1
-                    block = blocks.get(pc, [0])
-                    last = block[-1]
-                    below = code[last].next if last in code else None
+                    if pc not in cached:
+                        addresses = blocks.get(pc, [pc])
+                        named = [step.get(a) for a in addresses]
+                        own = collections.Counter(filter(None, named))
+                        end = next(filter(None, reversed(named)), None)
+                        below = code[addresses[-1]].next if addresses[-1] in code else None
+                        cached[pc] = own, named.count(None), end, addresses[-1], below
+                    own, others, end, last, below = cached[pc]
+                    for name, number in own.items():
+                        steps[name] += number
+                    steps[end or current] += others
+                    current = end or current
                 elif line.startswith("IN:"):
                     block = []
                 elif line.startswith("0x"):
                     address = int(line[:10], 16)
                     if not block:
                         blocks[address] = block
+                        cached.pop(address, None)
                     block.append(address)
         if process.wait() != 0:
             raise SystemExit(f"profile: {image}: exit status {process.returncode}")
@@ -53,7 +64,33 @@ def trace(command, image, code):
     for pc, number in runs.items():
         for address in blocks[pc]:
             counts[address] += number
-    return counts, taken
+    return counts, taken, steps
+
+
+class Profile:
+    """A traced run: `names` of what was inlined at each address of the tracer, how many instructions ran by class and
+    address (`classes`: [(address, class, number)]) and by step, as `step_of` says of the names."""
+
+    def __init__(self, tools, qemu, path, step_of=lambda names: None):
+        elf = elf_file.Elf(path)
+        self.program = program = elf_file.Program(elf, tools)
+        host = [(s[3], s[3] + s[5]) for s in elf.sections if s[0] in (".host", ".vectors")]
+        start = program.entry("start")
+        mine = {a for a in program.code if program.owner(a) not in (start, None)
+                and not any(low <= a < high for low, high in host)}
+        self.names = chains(tools, path, sorted(mine))
+        step = {a: step_of(self.names[a]) if a in mine else "outside" for a in program.code}
+        counts, taken, self.steps = trace(shlex.split(qemu), path, program.code, step)
+        self.steps.pop("outside", None)
+        self.classes = []
+        for address, number in counts.items():
+            if address in mine:
+                kind = classify(program.at(address))
+                if kind == "branch":
+                    self.classes.append((address, "branch, taken", taken[address]))
+                    number -= taken[address]
+                    kind = "branch, not taken"
+                self.classes.append((address, kind, number))
 
 
 def classify(i):
@@ -81,14 +118,20 @@ def classify(i):
     return "other"
 
 
-def sources(tools, path, addresses):
-    """{address: (file, function as written)}, innermost of what was inlined there."""
-    result = subprocess.run([tools + "addr2line", "-e", path, "-f", "-C", "-a"], check=True, text=True,
-                            input="\n".join(map(hex, addresses)), capture_output=True).stdout
-    lines = result.splitlines()
-    out = {}
-    for address, function, place in zip(lines[::3], lines[1::3], lines[2::3]):
-        out[int(address, 16)] = os.path.basename(place.split(":")[0]), re.sub(r"\(.*|<.*", "", function)
+def chains(tools, path, addresses):
+    """{address: [(file, function as written), ...]}, innermost first, of all that was inlined there."""
+    done = subprocess.run([tools + "addr2line", "-e", path, "-f", "-C", "-a", "-i"], check=True, text=True,
+                          input="\n".join(map(hex, addresses)), capture_output=True).stdout
+    out, chain, function = {}, [], None
+    for line in done.splitlines():
+        if re.fullmatch(r"0x[0-9a-f]+", line):
+            chain = out[int(line, 16)] = []
+            function = None
+        elif function is None:
+            function = re.sub(r"\(.*|<.*", "", line)
+        else:
+            chain.append((os.path.basename(line.split(":")[0]), function))
+            function = None
     return out
 
 
@@ -106,31 +149,18 @@ def main():
     parser.add_argument("--top", type=int, default=25)
     args = parser.parse_args()
 
-    elf = elf_file.Elf(args.image)
-    program = elf_file.Program(elf, args.tools)
-    host = [(s[3], s[3] + s[5]) for s in elf.sections if s[0] in (".host", ".vectors")]
-    start = program.entry("start")
-    counts, taken = trace(shlex.split(args.qemu), args.image, program.code)
-    counts = {a: n for a, n in counts.items()
-              if a in program.code and program.owner(a) not in (start, None)
-              and not any(low <= a < high for low, high in host)}
-    places = sources(args.tools, args.image, sorted(counts))
+    profile = Profile(args.tools, args.qemu, args.image)
     files, functions, linked, classes = (collections.Counter() for _ in range(4))
-    for address, number in counts.items():
-        file, function = places[address]
-        owner = program.name(program.owner(address))
+    for address, kind, number in profile.classes:
+        file, function = profile.names[address][0]
+        owner = profile.program.name(profile.program.owner(address))
         if file == "??":
             file, function = "compiler's library", owner
         files[file] += number
         functions[f"{function} ({file})"] += number
         linked[owner] += number
-        kind = classify(program.at(address))
-        if kind == "branch":
-            classes["branch, taken"] += taken[address]
-            number -= taken[address]
-            kind = "branch, not taken"
         classes[kind] += number
-    total = sum(counts.values())
+    total = classes.total()
     print(f"instructions: {total}")
     table("by class", classes, total, None)
     table("by source file", files, total, args.top)
