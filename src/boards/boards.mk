@@ -72,7 +72,7 @@ FW_FLAGS    := -std=c++20 $(BOARD_CPU) $(BOARD_OPTIMISE) -g $(WARNINGS) \
     -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -ffp-contract=off \
     -fstack-usage -fcallgraph-info=su $(FW_EXTRA)
 FW_LINK     := $(BOARD_CPU) -nostdlib -Wl,--gc-sections,--fatal-warnings \
-    -L$(FW_SRC)/common -T $(FW_SRC)/$(BOARD)/board.ld
+    -L$(FW_SRC)/common -L$(FW_SRC) -T $(FW_SRC)/$(BOARD)/board.ld
 
 FW_COMMON := start memory $(BOARD_CORE) host_fault host_text
 FW_OBJS   := $(addprefix $(FW_OBJ)/,$(addsuffix .o,$(FW_COMMON) \

@@ -19,6 +19,7 @@ sys.dont_write_bytecode = True
 import cycles  # noqa: E402
 import runs  # noqa: E402
 from programs import output_of  # noqa: E402
+from settings import options  # noqa: E402
 
 FOLDER = "build/plan"
 MEASURE = "build/study/measure"
@@ -175,14 +176,8 @@ class Plan:
         self.per_ray, self.cycles = {}, {}  # by setting and by kind, instructions; by number, cycles of one
         self.built = {}  # by setting: flash, ram, stack_bound; or what was refused
 
-    def options(self, setting):
-        _, samples, depth, cutoff = setting
-        sampling = {"ADAPTIVE": samples[1:]} if samples[0] == "a" else {"SAMPLES": samples} if samples != "1" else {}
-        return {**sampling, **({"DEPTH": depth} if depth != 5 else {}),
-                **({"CUTOFF": cutoff} if float(cutoff) != CUTOFF else {})}
-
     def run(self, setting, size, **more):
-        return runs.Run(self.question.board, self.question.scene, setting[0], size, **more, **self.options(setting))
+        return runs.Run(self.question.board, self.question.scene, setting[0], size, **more, **options(setting))
 
     def perform(self, todo):
         """[(setting, run), ...], two at a time while there is time; those that were."""
@@ -311,7 +306,7 @@ class Plan:
 
     def command(self, setting, size=None):
         words = {"BOARD": self.question.board, "SCENE": self.question.scene, "NUMBER": setting[0],
-                 "SIZE": size or self.size, **self.options(setting)}
+                 "SIZE": size or self.size, **options(setting)}
         return "make run " + " ".join(f"{k}={v}" for k, v in words.items())
 
 

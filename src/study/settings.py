@@ -44,3 +44,11 @@ def label(setting):
     if cutoff != DEFAULT[3]:
         out.append(f"cutoff {cutoff}")
     return " ".join(out)
+
+
+def options(setting):
+    """Of make, where the setting differs from the default."""
+    _, samples, depth, cutoff = setting
+    sampling = {"ADAPTIVE": samples[1:]} if samples[0] == "a" else {"SAMPLES": samples} if samples != "1" else {}
+    return {**sampling, **({"DEPTH": depth} if depth != DEFAULT[2] else {}),
+            **({"CUTOFF": cutoff} if float(cutoff) != DEFAULT[3] else {})}

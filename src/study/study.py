@@ -16,7 +16,7 @@ import sys
 sys.dont_write_bytecode = True
 import figures  # noqa: E402
 import runs  # noqa: E402
-from settings import DEFAULT, STUDIED as BOARDS  # noqa: E402
+from settings import DEFAULT, STUDIED as BOARDS, options  # noqa: E402
 
 FOLDER = "build/study"
 MEASURE = FOLDER + "/measure"
@@ -44,14 +44,6 @@ def traced_size(board, number):
     if number == "double":
         return "6x4"
     return "8x6" if number == "float" and board != "mps2_an386" else "12x9"
-
-
-def options(setting):
-    _, samples, depth, cutoff = setting
-    sampling = {"ADAPTIVE": samples[1:]} if samples[0] == "a" else {"SAMPLES": samples}
-    sampling = {} if samples == "1" else sampling
-    return {**sampling, **({"DEPTH": depth} if depth != 5 else {}),
-            **({"CUTOFF": cutoff} if cutoff != 0.0014 else {})}
 
 
 def commit():
