@@ -13,7 +13,8 @@ import settings
 matplotlib.use("svg")
 # The same bytes at each run, and text that stays text.
 plt.rcParams.update({"svg.hashsalt": "qray", "svg.fonttype": "none", "font.size": 9, "axes.grid": True,
-                     "axes.axisbelow": True, "grid.color": "#dde", "legend.frameon": False, "figure.constrained_layout.use": True})
+                     "axes.axisbelow": True, "grid.color": "#dde", "legend.frameon": False,
+                     "figure.constrained_layout.use": True})
 COLOURS = {"q16": "#c0392b", "q32": "#1f5fa8", "float": "#1a8f4c", "double": "#8e44ad"}
 MARKS = {"q16": "^", "q32": "o", "float": "s", "double": "D"}
 BITS = {"q16": 16, "q32": 32, "float": 32, "double": 64}
