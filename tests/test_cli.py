@@ -196,13 +196,13 @@ class Options(Cli):
         self.write("w.nff", text)
         status, _, err = self.run_qray("w.nff")
         self.assertEqual((status, err.splitlines()),
-                         (0, ["w.nff:2: warning: an object without extent, left out; 3 objects in all",
+                         (0, ["w.nff:2: warning: a sphere of radius 0, left out; 2 objects in all",
                               "w.nff:2: warning: a sphere too small for steps of 1, left out; 2 objects in all"]))
         status, _, err = self.run_qray("w.nff", "-n", "double")
-        self.assertEqual((status, err), (0, "w.nff:2: warning: an object without extent, left out; 3 objects in all\n"))
+        self.assertEqual((status, err), (0, "w.nff:2: warning: a sphere of radius 0, left out; 2 objects in all\n"))
         self.assertEqual(self.run_qray("w.nff", "-q")[2], "")
         self.write("w.nff", view() + "s 0 0 0 1\ns 0 0 0 0")
-        self.assertEqual(self.run_qray("w.nff")[2], "w.nff:3: warning: an object without extent, left out\n")
+        self.assertEqual(self.run_qray("w.nff")[2], "w.nff:3: warning: a sphere of radius 0, left out\n")
         # A unit square with a corner 1/4 above it, across a box of a diagonal of 1.436; twice.
         bent = "p 4 0 0 0 1 0 0 1 1 0 0 1 0.25\n"
         self.write("w.nff", view() + bent + "p 4 0 0 0 1 0 0 1 1 0 0 1 0.01\n" + bent)

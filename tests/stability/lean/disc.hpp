@@ -10,6 +10,8 @@ namespace qray {
 
 template <class N>
 struct Disc {
+    static constexpr bool has_corners = false, is_curved = false, is_smooth = false, is_short = false;
+
     Point<N> centre;
     Direction<N> normal;
     typename N::Length radius;
@@ -22,9 +24,9 @@ QRAY_INLINE constexpr bool surely_missed(const Disc<N>& s, const RejectRay<N>& r
     return ray.misses_plane(s.centre, s.normal);
 }
 
-template <class N>
-QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typename N::Length limit,
-                                     typename N::Length& t)
+template <bool Near = false, class N>
+QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length limit,
+                                     typename N::Length& t, Local<N>&)
 {
     const Point<N> v = s.centre - ray.origin;
     if (!intersect_plane<N>(dot<N>(v, s.normal), dot<N>(ray.direction, s.normal), limit, t))
@@ -34,17 +36,21 @@ QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Ray<N>& ray, typena
     return !(norm2<N>(along<N>(t, ray.direction) - v) > s.radius * s.radius);
 }
 
-template <class N>
-QRAY_INLINE constexpr int crossings(const Disc<N>& s, const Ray<N>& ray, typename N::Length limit)
+template <bool Near = false, class N>
+QRAY_INLINE constexpr int crossings(const Disc<N>& s, const Corners<N>& corners, const Ray<N>& ray,
+                                    typename N::Length limit)
 {
     typename N::Length t{};
-    return intersect(s, ray, limit, t) && t < limit;
+    Local<N> local{};
+    return intersect(s, corners, ray, limit, t, local) && t < limit;
 }
 
 template <class N>
-QRAY_INLINE constexpr Direction<N> normal_at(const Disc<N>& s)
+QRAY_INLINE constexpr void surface_of(const Disc<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length t,
+                                      const Local<N>&, Point<N>& point, Direction<N>& n)
 {
-    return s.normal;
+    n = s.normal;
+    point = on_plane<N>(s.centre, n, ray.origin + along<N>(t, ray.direction));
 }
 
 } // namespace qray

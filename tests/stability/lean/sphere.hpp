@@ -21,6 +21,8 @@ inline constexpr typename N::Length lean_threshold = [] {
 
 template <class N>
 struct Sphere {
+    static constexpr bool has_corners = false, is_curved = true, is_smooth = false, is_short = true;
+
     Point<N> centre;
     typename N::Length radius, reach; // the latter for the reject
     typename N::Area square;  // of the radius
@@ -67,7 +69,7 @@ QRAY_INLINE constexpr bool lean_roots(const Sphere<N>& s, const Ray<N>& ray, Poi
 }
 
 template <bool Near = false, class N>
-QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Ray<N>& ray, typename N::Length limit,
+QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length limit,
                                      typename N::Length& t, Local<N>& local)
 {
     typename N::Length far{};
@@ -85,7 +87,8 @@ QRAY_INLINE constexpr bool intersect(const Sphere<N>& s, const Ray<N>& ray, type
 }
 
 template <bool Near = false, class N>
-QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Ray<N>& ray, typename N::Length distance)
+QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Corners<N>&, const Ray<N>& ray,
+                                    typename N::Length distance)
 {
     typename N::Length near{}, far{};
     Point<N> v{};
@@ -95,10 +98,10 @@ QRAY_INLINE constexpr int crossings(const Sphere<N>& s, const Ray<N>& ray, typen
 }
 
 template <class N>
-QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Local<N>& local, const Direction<N>& d,
-                                      Point<N>& point, Direction<N>& n)
+QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length,
+                                      const Local<N>& local, Point<N>& point, Direction<N>& n)
 {
-    const Point<N> w = local.near + along<N>(local.offset, d);
+    const Point<N> w = local.near + along<N>(local.offset, ray.direction);
     n = {N::ratio(w.x, s.inverse_radius), N::ratio(w.y, s.inverse_radius), N::ratio(w.z, s.inverse_radius)};
     point = s.centre + w;
 }
