@@ -1,6 +1,6 @@
 #include <qray/surface/transmit.hpp>
 
-#include "number_helpers.hpp"
+#include "scene_helpers.hpp"
 
 namespace {
 
@@ -122,6 +122,20 @@ TYPED_TEST(TransmitTest, IsUnitAndInThePlaneOfIncidence)
     EXPECT_LE(worst_length, 3 * M::unit_ulp());
     EXPECT_LE(worst_plane, 8 * M::unit_ulp());
     EXPECT_LE(worst_sine, 8 * M::unit_ulp());
+}
+
+// A lossless box under a white sky: whatever a ray meets, white comes back. The one through this pixel touches the box's
+// outline, where it meets the face that it would enter and the one that it would leave at the same t.
+TYPED_TEST(TransmitTest, LosesNoLightAtAnOutline)
+{
+    using N = TypeParam;
+    ASSERT_TRUE(loaded<N>("b 1 1 1 v from 3 2.3 5 at 0 0 0 up 0 1 0 angle 35 hither 1 resolution 121 121\n"
+                          "material colour 0 0 0 diffuse 0 ambient 0 transmit 1 ior 1.5\n"
+                          "p 4 -1 -1 -1 -1 -1 1 -1 1 1 -1 1 -1 p 4 1 -1 -1 1 1 -1 1 1 1 1 -1 1\n"
+                          "p 4 -1 -1 -1 1 -1 -1 1 -1 1 -1 -1 1 p 4 -1 1 -1 -1 1 1 1 1 1 1 1 -1\n"
+                          "p 4 -1 -1 -1 -1 1 -1 1 1 -1 1 -1 -1 p 4 -1 -1 1 1 -1 1 1 1 1 -1 1 1\n"));
+    for (uint32_t i = 0; i < 121; i++)
+        expect_light(light_at<N>(i, 45), {1, 1, 1}, 0.002);
 }
 
 } // namespace
