@@ -6,6 +6,7 @@
 
 #include "../number/lanes.hpp"
 #include "../vector/ray.hpp"
+#include "lists.hpp"
 
 namespace qray {
 

@@ -117,7 +117,7 @@ QRAY_INLINE constexpr void keep_nearest(const Scene<N, E>& scene, const Ray<N>& 
 template <class N, Effects E>
 QRAY_INLINE constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit)
 {
-    if constexpr (!N::is_fixed || (NarrowFixed<N> && has_wide_multiply))
+    if constexpr (!N::is_fixed || sizeof(void*) == 8 || (NarrowFixed<N> && has_wide_multiply))
         hit = {}; // or the compiler warns that it may be used unset
     hit.t = N::length_max;
     hit.tag = {Tag::none};
