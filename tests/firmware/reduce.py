@@ -1,4 +1,5 @@
-"""A header reduced to bare declarations: no function has a body and no structure has members."""
+"""A header reduced to bare declarations: no function has a body, and of a structure's members only the constants
+stay that say what it is."""
 
 import re
 
@@ -40,7 +41,8 @@ def bare(head, body):
         return f"{head} {{\n{''.join(bare(*s) + chr(10) for s in statements(body))}}}"
     after_template = re.sub(r"^(template\s*<[^;{]*?>\s*(requires\s*(\([^)]*\)|[\w:]+)\s*)?)*", "", head)
     if re.match(r"(struct|class|enum)\b", after_template):
-        return head.rstrip() + ";"
+        told = "".join(f"{s};" for s, _ in statements(body) if s.startswith("static constexpr bool"))
+        return f"{head}{{{told}}};" if told else f"{head};"
     if ")" in after_template:
         return head + ";"
     return f"{head}{{{body}}};"  # a constant
