@@ -206,7 +206,7 @@ TEST(Lanes, LightBecomesBytes)
         for (int k = 0; k < 3; k++)
             ASSERT_EQ(rgb[k], Sample<q32>::byte(Sample<q32>::clamped(parts[k], exposure)));
 
-        const float f[] = {static_cast<float>(random.uniform(-0.5, 1.5)), static_cast<float>(random.uniform(0, 1)),
+        const float f[] = {static_cast<float>(random.uniform(0, 1.5)), static_cast<float>(random.uniform(0, 1)),
                            static_cast<float>(static_cast<int>(random.uniform(0, 255)) + 0.5) / 255};
         clamped_bytes<Float>(Vec<float>{f[0], f[1], f[2]}, 0, rgb);
         for (int k = 0; k < 3; k++)
