@@ -14,7 +14,6 @@ OPTIMISE ?= -O2
 STATIC   ?= -static
 # Debian's own, which sees Debian's packages.
 PYTHON   := $(or $(wildcard /usr/bin/python3),python3) -B
-
 WARNINGS := -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Werror
 COMMON   := -std=c++20 $(WARNINGS) -ffp-contract=off -fno-math-errno -Iinclude -Isrc -MMD -MP
 PROGRAM  := -fno-exceptions -fno-rtti
@@ -44,20 +43,17 @@ build/obj/src/%.o: src/%.cpp build/obj/flags
 	@echo "  compile $<"
 	@mkdir -p $(@D)
 	@$(CXX) $(FLAGS) $(PROGRAM) -c $< -o $@
-define ALONE
+define IN_LANES
+	@echo "  compile $< in lanes"
+	@mkdir -p $(@D)
+	@$(CXX) $(USED) $(LANES) -MT $@ -c $< -o $(@:.o=.whole)
 	@$(CXX) -r -nostdlib -Wl,--force-group-allocation $(@:.o=.whole) -o $@
 	@objcopy --wildcard --keep-global-symbol='*_lanes_renderer*' $@
 endef
-$(LANED): build/obj/%.o: %.cpp build/obj/flags
-	@echo "  compile $<"
-	@mkdir -p $(@D)
-	@$(CXX) $(FLAGS) $(PROGRAM) $(LANES) -MT $@ -c $< -o $(@:.o=.whole)
-	$(ALONE)
-$(LANED:build/%=build/sanitized/%): build/sanitized/obj/%.o: %.cpp build/obj/flags
-	@echo "  compile $< with sanitizers"
-	@mkdir -p $(@D)
-	@$(CXX) $(SANITIZE) -O1 $(LANES) -MT $@ -c $< -o $(@:.o=.whole)
-	$(ALONE)
+$(LANED): USED = $(FLAGS) $(PROGRAM)
+$(LANED): build/obj/%.o: %.cpp build/obj/flags; $(IN_LANES)
+$(LANED:build/%=build/sanitized/%): USED = $(SANITIZE) -O1
+$(LANED:build/%=build/sanitized/%): build/sanitized/obj/%.o: %.cpp build/obj/flags; $(IN_LANES)
 # Rewritten when the flags change, so that everything is compiled again.
 build/obj/flags: FORCE
 	@mkdir -p $(@D)
@@ -104,8 +100,7 @@ build/sanitized/obj/tests/%.o: tests/%.cpp build/sanitized/obj/gtest.hpp.gch
 	@echo "  compile $< with sanitizers"
 	@mkdir -p $(@D)
 	@$(CXX) $(SANITIZE) $(if $(filter $*,$(LONG)),-O1,-O0 -include build/sanitized/obj/gtest.hpp) -c $< -o $@
-# GoogleTest's header, compiled once.
-build/obj/gtest.hpp.gch: USED = $(FLAGS)
+build/obj/gtest.hpp.gch: USED = $(FLAGS) # GoogleTest's header, compiled once
 build/sanitized/obj/gtest.hpp.gch: USED = $(SANITIZE) -O0
 %/gtest.hpp.gch: build/obj/flags
 	@mkdir -p $(@D)
@@ -134,23 +129,19 @@ test: | $(filter deps,$(MAKECMDGOALS))
 	    $(PYTHON) tests/run.py $(TESTS) && exit $$built
 
 PACKAGES := g++ libgtest-dev clang libclang-rt-14-dev gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm \
-    gcc-riscv64-unknown-elf qemu-system-misc valgrind python3 \
-    python3-matplotlib netpbm
+    gcc-riscv64-unknown-elf qemu-system-misc valgrind python3 python3-matplotlib netpbm
 deps:
 	@dpkg -s $(PACKAGES) > /dev/null 2>&1 || { \
 	    root=$$([ $$(id -u) = 0 ] || echo sudo); \
 	    $$root apt-get -qq update && \
-	    $$root env DEBIAN_FRONTEND=noninteractive apt-get -qq -y install --no-install-recommends $(PACKAGES) \
-	        > /dev/null; }
+	    $$root env DEBIAN_FRONTEND=noninteractive apt-get -qq -y install --no-install-recommends $(PACKAGES) > /dev/null; }
 
-clean:
-	@rm -rf build
+clean:; @rm -rf build
 help:
 	@sed -n 's/^#   make/make/p' $(MAKEFILE_LIST)
 
-# Firmware, measurements and long tests: make run, size, profile, report, study, stability, soak, fuzz.
+# Firmware, measurements and long tests; what tests need is known only after these.
 include $(sort $(wildcard src/*/*.mk tests/*/*.mk))
-# After these, as names of what is needed are taken when a rule is read.
 test-programs: $(TEST_NEEDS) $(filter build/%,$(TESTS))
 
 .PHONY: all render test test-programs deps clean help FORCE
