@@ -36,7 +36,6 @@ constexpr bool meets(const Patch<N>& s, const Point<N>* corners, const Ray<N>& r
     return intersect_corners<N>(s.normal, 3, corner, ray, limit, t);
 }
 
-// How often the ray crosses it strictly between its origin and a light at `distance`: 0 or 1.
 template <bool Near = false, class N>
 QRAY_INLINE constexpr bool intersect(const Patch<N>& s, const Corners<N>& corners, const Ray<N>& ray,
                                      typename N::Length limit, typename N::Length& t, Local<N>&)
@@ -44,8 +43,10 @@ QRAY_INLINE constexpr bool intersect(const Patch<N>& s, const Corners<N>& corner
     return meets(s, corners.points, ray, limit, t);
 }
 
+// How often the ray crosses it strictly between its origin and a light at `distance`: 0 or 1.
 template <bool Near = false, class N>
-QRAY_INLINE constexpr int crossings(const Patch<N>& s, const Corners<N>& corners, const Ray<N>& ray, typename N::Length distance)
+QRAY_INLINE constexpr int crossings(const Patch<N>& s, const Corners<N>& corners, const Ray<N>& ray,
+                                    typename N::Length distance)
 {
     typename N::Length t{};
     return meets(s, corners.points, ray, distance, t) && before_light<N>(s.normal, ray, t, distance);

@@ -9,9 +9,6 @@
 namespace qray {
 
 template <class N>
-struct RejectRay;
-
-template <class N>
     requires(!N::is_fixed)
 struct RejectRay<N> {
     const Ray<N>& ray;

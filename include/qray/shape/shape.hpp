@@ -23,4 +23,21 @@ struct Corners {
     const Direction<N>* normals;
 };
 
+template <class N>
+struct RejectRay;
+
+// What forgets one of the above does not compile.
+template <class S, class N>
+concept ShapeIn = requires(const S& shape, const Corners<N>& corners, const Ray<N>& ray, const RejectRay<N>& reject,
+                           typename N::Length t, Local<N> local, Point<N> point, Direction<N> normal) {
+    requires Is<decltype(S::has_corners), const bool> && Is<decltype(S::is_curved), const bool>;
+    requires Is<decltype(S::is_smooth), const bool> && Is<decltype(S::is_short), const bool>;
+    { shape.tag } -> Is<const Tag&>;
+    { surely_missed(shape, reject) } -> Is<bool>;
+    { intersect<true>(shape, corners, ray, t, t, local) } -> Is<bool>;
+    { crossings<true>(shape, corners, ray, t) } -> Is<int>;
+    { surface_of(shape, corners, ray, t, local, point, normal) } -> Is<void>;
+    requires !S::is_smooth || requires { { shading_normal(shape, corners, ray) } -> Is<Direction<N>>; };
+};
+
 } // namespace qray
