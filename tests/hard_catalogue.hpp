@@ -602,7 +602,7 @@ struct Figure {
         hide(ray);
         Local<N> local{};
         return !surely_missed(shape, RejectRay<N>(ray))
-            && intersect(shape, Corners<N>{at, nullptr}, ray, N::length_max, t, local);
+            && intersect<true>(shape, Corners<N>{at, nullptr}, ray, N::length_max, t, local);
     }
 };
 

@@ -1,15 +1,12 @@
-// Shapes of a number system from their plain measures, each as its header documents its fields, and with one
-// interface: hit(), normal() and crossings(), whatever their headers need to be told.
+// Shapes of a number system from their plain measures, each as its header documents its fields, with what they are
+// asked.
 #pragma once
 
-#include <qray/shape/cone.hpp>
-#include <qray/shape/disc.hpp>
-#include <qray/shape/patch.hpp>
-#include <qray/shape/polygon.hpp>
-#include <qray/shape/sphere.hpp>
+#include <qray/scene/lists.hpp>
 
 #include <vector>
 
+#include "../src/scene/vec3d.hpp"
 #include "number_helpers.hpp"
 
 namespace qray::test {
@@ -35,14 +32,39 @@ int32_t fine_for(double size)
     return fine;
 }
 
-// What tests ask of every shape. Derived holds `shape` and says where its corners are.
-template <class N, class Derived>
-struct Asked {
+// A shape and its corners, if it has any.
+template <template <class> class Shape, class N>
+struct ShapeOf {
     using Length = typename N::Length;
+    using M = make<N>;
+    Shape<N> shape{};
+    std::vector<Point<N>> points;
+    std::vector<Direction<N>> normals;
+
+    explicit ShapeOf(Tag tag) { shape.tag = tag; }
+    // The corners, and the ball that holds them.
+    ShapeOf(const std::vector<Vec3>& corners, Tag tag) : ShapeOf(tag)
+    {
+        scene::Extent box;
+        for (const Vec3& c : corners) {
+            points.push_back(M::point(c));
+            box.add({c.x, c.y, c.z});
+        }
+        const scene::Vec3d middle = box.middle();
+        const Vec3 centre{middle.x, middle.y, middle.z};
+        double far = 0;
+        for (const Vec3& c : corners)
+            far = std::fmax(far, length(c - centre));
+        shape.normal = M::direction(cross(corners[1] - corners[0], corners[2] - corners[1]));
+        shape.middle = M::point(centre);
+        shape.bound = M::length(far * (1 + 1e-6) + 4 * M::length_ulp(far));
+    }
+
+    Corners<N> corners() const { return {points.data(), normals.data()}; }
     bool hit(const Ray<N>& ray, Length limit, Length& t) const
     {
         Local<N> local{};
-        return intersect(self().shape, self().corner_points(), ray, limit, t, local);
+        return intersect(shape, corners(), ray, limit, t, local);
     }
     // Where the ray meets it, and the normal there; both zero where it does not.
     void surface(const Ray<N>& ray, Vec3& point, Vec3& normal) const
@@ -51,8 +73,8 @@ struct Asked {
         Local<N> local{};
         Point<N> q{};
         Direction<N> n{};
-        if (intersect(self().shape, self().corner_points(), ray, N::length_max, t, local))
-            surface_of(self().shape, self().corner_points(), ray, t, local, q, n);
+        if (intersect(shape, corners(), ray, N::length_max, t, local))
+            surface_of(shape, corners(), ray, t, local, q, n);
         point = value(q);
         normal = value(n);
     }
@@ -62,52 +84,48 @@ struct Asked {
         surface(ray, point, n);
         return n;
     }
+    Vec3 shading(const Ray<N>& ray) const { return value(shading_normal(shape, corners(), ray)); }
     int crossings(const Ray<N>& ray, Length distance) const
     {
-        return qray::crossings(self().shape, self().corner_points(), ray, distance);
+        return qray::crossings(shape, corners(), ray, distance);
     }
-    qray::Corners<N> corner_points() const { return {}; }
-
-private:
-    const Derived& self() const { return static_cast<const Derived&>(*this); }
 };
 
 template <class N>
-struct SphereOf : Asked<N, SphereOf<N>> {
-    Sphere<N> shape{};
+struct SphereOf : ShapeOf<Sphere, N> {
+    using ShapeOf<Sphere, N>::shape;
 
     SphereOf(const Vec3& centre, double r, Tag tag = make_tag(0, 0)) : SphereOf(centre, r, tag, fine_for<N>(r)) {}
-    SphereOf(const Vec3& centre, double r, Tag tag, int32_t fine)
+    SphereOf(const Vec3& centre, double r, Tag tag, int32_t fine) : ShapeOf<Sphere, N>(tag)
     {
         shape.centre = make<N>::point(centre);
         shape.radius = make<N>::length(std::ldexp(r, fine));
         shape.inverse_radius = make<N>::inverse(shape.radius);
         shape.fine = fine;
-        shape.tag = tag;
     }
     double radius() const { return std::ldexp(value(shape.radius), -shape.fine); }
 };
 
 template <class N>
-struct DiscOf : Asked<N, DiscOf<N>> {
-    Disc<N> shape{};
+struct DiscOf : ShapeOf<Disc, N> {
+    using ShapeOf<Disc, N>::shape;
 
-    DiscOf(const Vec3& centre, const Vec3& normal, double r, Tag tag = make_tag(0, 0))
+    DiscOf(const Vec3& centre, const Vec3& normal, double r, Tag tag = make_tag(0, 0)) : ShapeOf<Disc, N>(tag)
     {
         shape.centre = make<N>::point(centre);
         shape.normal = make<N>::direction(normal);
         shape.radius = make<N>::length(r);
-        shape.tag = tag;
     }
 };
 
 // From base to apex, with a radius at either end.
 template <class N>
-struct ConeOf : Asked<N, ConeOf<N>> {
-    using M = make<N>;
-    Cone<N> shape{};
+struct ConeOf : ShapeOf<Cone, N> {
+    using ShapeOf<Cone, N>::shape;
+    using typename ShapeOf<Cone, N>::M;
 
     ConeOf(const Vec3& base, double base_radius, const Vec3& apex, double apex_radius, Tag tag = make_tag(0, 0))
+        : ShapeOf<Cone, N>(tag)
     {
         const double height = length(apex - base);
         const Vec3 axis = unit(apex - base);
@@ -127,71 +145,27 @@ struct ConeOf : Asked<N, ConeOf<N>> {
         shape.bound = M::length(bound * up * (1 + 1e-6) + 4 * M::length_ulp(bound));
         shape.cosine = M::unit(cosine);
         shape.sine = M::unit(growth * cosine);
-        shape.tag = tag;
     }
 };
 
-// Corners, and the ball that holds them.
 template <class N>
-struct Figure {
-    std::vector<Point<N>> at;
-    Point<N> middle{};
-    typename N::Length bound{};
-
-    explicit Figure(const std::vector<Vec3>& corners)
+struct PolygonOf : ShapeOf<Polygon, N> {
+    explicit PolygonOf(const std::vector<Vec3>& corners, Tag tag = make_tag(0, 0)) : ShapeOf<Polygon, N>(corners, tag)
     {
-        Vec3 low = corners[0], high = corners[0];
-        for (const Vec3& c : corners) {
-            at.push_back(make<N>::point(c));
-            low = {std::fmin(low.x, c.x), std::fmin(low.y, c.y), std::fmin(low.z, c.z)};
-            high = {std::fmax(high.x, c.x), std::fmax(high.y, c.y), std::fmax(high.z, c.z)};
-        }
-        const Vec3 centre = (low + high) * 0.5;
-        double far = 0;
-        for (const Vec3& c : corners)
-            far = std::fmax(far, length(c - centre));
-        middle = make<N>::point(centre);
-        bound = make<N>::length(far * (1 + 1e-6) + 4 * make<N>::length_ulp(far));
+        this->shape.count = static_cast<uint32_t>(corners.size());
     }
 };
 
+// The triangle of corners 0, 1 and 2, with a normal at each corner.
 template <class N>
-struct PolygonOf : Asked<N, PolygonOf<N>> {
-    Figure<N> corners;
-    Polygon<N> shape{};
-
-    explicit PolygonOf(const std::vector<Vec3>& c, Tag tag = make_tag(0, 0)) : corners(c)
-    {
-        shape.normal = make<N>::direction(cross(c[1] - c[0], c[2] - c[1]));
-        shape.middle = corners.middle;
-        shape.bound = corners.bound;
-        shape.first = 0;
-        shape.count = static_cast<uint32_t>(c.size());
-        shape.tag = tag;
-    }
-    qray::Corners<N> corner_points() const { return {corners.at.data(), nullptr}; }
-};
-
-// One triangle with a normal at each corner.
-template <class N>
-struct PatchOf : Asked<N, PatchOf<N>> {
-    Figure<N> corners;
-    std::vector<Direction<N>> normals;
-    Patch<N> shape{};
-
-    PatchOf(const std::vector<Vec3>& c, const std::vector<Vec3>& corner_normals, Tag tag = make_tag(0, 0)) : corners(c)
+struct PatchOf : ShapeOf<Patch, N> {
+    PatchOf(const std::vector<Vec3>& corners, const std::vector<Vec3>& corner_normals, Tag tag = make_tag(0, 0))
+        : ShapeOf<Patch, N>(corners, tag)
     {
         for (const Vec3& n : corner_normals)
-            normals.push_back(make<N>::direction(n));
-        shape.normal = make<N>::direction(cross(c[1] - c[0], c[2] - c[1]));
-        shape.middle = corners.middle;
-        shape.bound = corners.bound;
-        shape.first = 0;
-        shape.second = 1;
-        shape.tag = tag;
+            this->normals.push_back(make<N>::direction(n));
+        this->shape.second = 1;
     }
-    Vec3 shading(const Ray<N>& ray) const { return value(shading_normal(shape, corner_points(), ray)); }
-    qray::Corners<N> corner_points() const { return {corners.at.data(), normals.data()}; }
 };
 
 // What every test of a shape says first.

@@ -38,6 +38,7 @@ void expect_nearest_roots(uint64_t x) {
     expect_nearest_root(x, isqrt(x));
     if (x >> 63 == 0)
         expect_nearest_root(x, isqrt(static_cast<int64_t>(x)));
+    expect_nearest_root(x, detail::isqrt_by_rsqrt(x));
 }
 
 TEST(Math, RootOf64BitsIsNearest) {

@@ -32,17 +32,12 @@ TYPED_TEST(PatchTest, TakesItsCornersFromTheTable)
 {
     QRAY_SHAPE_TEST;
     // A fan of five corners: the second triangle is corners 0, 2, 3 from the fan's first.
-    const Figure<N> c({{9, 9, 9}, {0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}});
-    Patch<N> s{};
-    s.normal = M::vector(0, 0, 1);
-    s.middle = c.middle;
-    s.bound = c.bound;
-    s.first = 1;
-    s.second = 3;
-    const qray::Corners<N> corners{c.at.data(), nullptr};
-    Local<N> local{};
-    EXPECT_TRUE(intersect(s, corners, M::ray({0.5, 1.5, 4}, {0, 0, -1}), limit, t, local));
-    EXPECT_FALSE(intersect(s, corners, M::ray({1.5, 0.5, 4}, {0, 0, -1}), limit, t, local));
+    ShapeOf<Patch, N> s({{9, 9, 9}, {0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}, make_tag(0, 0));
+    s.shape.normal = M::vector(0, 0, 1);
+    s.shape.first = 1;
+    s.shape.second = 3;
+    EXPECT_TRUE(s.hit(M::ray({0.5, 1.5, 4}, {0, 0, -1}), limit, t));
+    EXPECT_FALSE(s.hit(M::ray({1.5, 0.5, 4}, {0, 0, -1}), limit, t));
 }
 
 TYPED_TEST(PatchTest, ShadingNormalIsTheBarycentricBlend)

@@ -103,7 +103,7 @@ TYPED_TEST(PolygonTest, AgreesWithThePlaneAndTheSidesOfATriangle)
         const Vec3 from = random.point(7);
         const auto ray = M::ray(from, random.point(3) - from);
         const auto d = real(ray.direction), o = real(ray.origin);
-        const auto a = real(s.corners.at[0]) - o, b = real(s.corners.at[1]) - o, e = real(s.corners.at[2]) - o;
+        const auto a = real(s.points[0]) - o, b = real(s.points[1]) - o, e = real(s.points[2]) - o;
         const auto n = cross(b - a, e - b);
         if (std::fabs(dot(n, d)) < 0.1 * length(n))
             continue;
@@ -161,7 +161,7 @@ void expect_exact_edges()
             const Vec3 at = a + along * random.uniform(0, 1) + cross(unit(along), g) * (width * random.uniform(-0.5, 1));
             const Vec3 from = at + (g + random.point(0.5)) * random.uniform(1, 15);
             const auto ray = M::ray(from, at - from);
-            const auto* p = s.corners.at.data();
+            const auto* p = s.points.data();
             const auto u = volume<N>(ray, p[0], p[1]), v = volume<N>(ray, p[1], p[2]), w = volume<N>(ray, p[2], p[0]);
             if (u == 0 || v == 0 || w == 0)
                 continue;

@@ -1,4 +1,4 @@
-// The narrow reject may turn away what a ray misses, and never what it meets.
+// The reject may turn away what a ray misses, and never what it meets.
 #include <qray/shape/reject.hpp>
 
 #include "scene_helpers.hpp"
@@ -10,8 +10,8 @@ using namespace qray;
 using namespace qray::test;
 
 template <class N>
-struct NarrowTest : ::testing::Test {};
-TYPED_TEST_SUITE(NarrowTest, NumberSystems, SystemNames);
+struct RejectTest : ::testing::Test {};
+TYPED_TEST_SUITE(RejectTest, NumberSystems, SystemNames);
 
 // Points anywhere in the world that a builder may fill.
 Vec3 in_world(Random& random)
@@ -23,7 +23,7 @@ Vec3 in_world(Random& random)
     }
 }
 
-TYPED_TEST(NarrowTest, NoBallThatIsMetIsTurnedAway)
+TYPED_TEST(RejectTest, NoBallThatIsMetIsTurnedAway)
 {
     using N = TypeParam;
     using M = make<N>;
@@ -57,7 +57,7 @@ TYPED_TEST(NarrowTest, NoBallThatIsMetIsTurnedAway)
 }
 
 // As built, from corners that are rounded to where the bounding ball, rounded too, may not reach.
-TYPED_TEST(NarrowTest, NoTriangleThatIsMetAtACornerIsTurnedAway)
+TYPED_TEST(RejectTest, NoTriangleThatIsMetAtACornerIsTurnedAway)
 {
     using N = TypeParam;
     using M = make<N>;
@@ -95,7 +95,7 @@ TYPED_TEST(NarrowTest, NoTriangleThatIsMetAtACornerIsTurnedAway)
                 const auto ray = M::ray(from, to - from);
                 typename N::Length t{};
                 Local<N> local{};
-                if (!intersect(shape, qray::Corners<N>{s.vertices.data, s.normals.data}, ray, N::length_max, t, local))
+                if (!intersect(shape, Corners<N>{s.vertices.data, s.normals.data}, ray, N::length_max, t, local))
                     continue;
                 met++;
                 wrong += surely_missed(shape, RejectRay<N>(ray));
@@ -114,7 +114,7 @@ TYPED_TEST(NarrowTest, NoTriangleThatIsMetAtACornerIsTurnedAway)
     EXPECT_GT(met, 100000);
 }
 
-TYPED_TEST(NarrowTest, NoPlaneThatIsMetIsTurnedAway)
+TYPED_TEST(RejectTest, NoPlaneThatIsMetIsTurnedAway)
 {
     using N = TypeParam;
     using M = make<N>;
@@ -142,7 +142,7 @@ TYPED_TEST(NarrowTest, NoPlaneThatIsMetIsTurnedAway)
     EXPECT_GT(met, 50000);
 }
 
-TYPED_TEST(NarrowTest, MostOfWhatIsFarOffIsTurnedAwayWhereItPays)
+TYPED_TEST(RejectTest, MostOfWhatIsFarOffIsTurnedAwayWhereItPays)
 {
     using N = TypeParam;
     using M = make<N>;

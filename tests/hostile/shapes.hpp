@@ -93,11 +93,7 @@ template <class N>
 struct SphereTrial {
     static constexpr const char* name = "sphere";
     static constexpr bool curved = true;
-    static constexpr Effects effects = [] {
-        Effects e;
-        e.sphere = true;
-        return e;
-    }();
+    static constexpr Effects effects{.sphere = true};
     Bench<N> bench;
     const qray::Sphere<N>& shape = bench.storage.spheres.data[0];
     Double3 centre;
@@ -147,11 +143,7 @@ template <class N>
 struct DiscTrial {
     static constexpr const char* name = "disc";
     static constexpr bool curved = false;
-    static constexpr Effects effects = [] {
-        Effects e;
-        e.disc = true;
-        return e;
-    }();
+    static constexpr Effects effects{.disc = true};
     Bench<N> bench;
     const qray::Disc<N>& shape = bench.storage.discs.data[0];
     Double3 centre, normal;
@@ -240,11 +232,7 @@ template <class N>
 struct ConeTrial {
     static constexpr const char* name = "cone";
     static constexpr bool curved = true;
-    static constexpr Effects effects = [] {
-        Effects e;
-        e.cone = true;
-        return e;
-    }();
+    static constexpr Effects effects{.cone = true};
     Bench<N> bench;
     const qray::Cone<N>& shape = bench.storage.cones.data[0];
     Double3 base, axis;
@@ -434,11 +422,7 @@ template <class N>
 struct PolygonTrial {
     static constexpr const char* name = "polygon";
     static constexpr bool curved = false;
-    static constexpr Effects effects = [] {
-        Effects e;
-        e.polygon = true;
-        return e;
-    }();
+    static constexpr Effects effects{.polygon = true};
     Bench<N> bench;
     const qray::Polygon<N>& shape = bench.storage.polygons.data[0];
     Figure figure;
@@ -470,11 +454,7 @@ template <class N>
 struct PatchTrial {
     static constexpr const char* name = "patch";
     static constexpr bool curved = false;
-    static constexpr Effects effects = [] {
-        Effects e;
-        e.patch = true;
-        return e;
-    }();
+    static constexpr Effects effects{.patch = true};
     Bench<N> bench;
     const qray::Patch<N>& shape = bench.storage.patches.data[0];
     Figure figure;

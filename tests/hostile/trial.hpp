@@ -269,7 +269,7 @@ private:
         }
         const int counted = surely_missed(trial.shape, qray::RejectRay<N>(first_ray))
             ? 0
-            : crossings(trial.shape, corners_of(scene()), first_ray, N::length_max);
+            : qray::crossings<true>(trial.shape, corners_of(scene()), first_ray, N::length_max);
         if (Trial::curved ? (counted ^ expected) & 1 : counted != count)
             fault(Fault::parity, first_ray);
     }

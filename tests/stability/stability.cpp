@@ -33,17 +33,17 @@ struct Bundle {
     TrialOf<N> trial;
     decltype(textbook::form<T, TrialOf<N>::effects>()) form;
     qray::Ray<N> rays[rays_each];
-    std::vector<qray::RejectRay<N>> narrow;
+    std::vector<qray::RejectRay<N>> rejects;
     textbook::Ray<T> textbook_rays[rays_each];
 
     void make(Random& random)
     {
         trial.make(random, Regime::ordinary);
         form.look_at(trial);
-        narrow.clear();
+        rejects.clear();
         for (int i = 0; i < rays_each; i++) {
             rays[i] = trial.aim(random, Regime::ordinary);
-            narrow.emplace_back(rays[i]);
+            rejects.emplace_back(rays[i]);
             textbook_rays[i] = textbook::ray<T>(rays[i]);
         }
     }
@@ -63,8 +63,8 @@ struct Bundle {
         for (int i = 0; i < rays_each; i++) {
             typename N::Length t{};
             qray::Local<N> local{};
-            hits += !surely_missed(b.trial.shape, b.narrow[static_cast<size_t>(i)])
-                && intersect(b.trial.shape, corners_of(scene), b.rays[i], N::length_max, t, local);
+            hits += !surely_missed(b.trial.shape, b.rejects[static_cast<size_t>(i)])
+                && qray::intersect<true>(b.trial.shape, corners_of(scene), b.rays[i], N::length_max, t, local);
         }
         return hits;
     }
