@@ -65,7 +65,8 @@ QRAY_INLINE constexpr Ray<N> eye_ray(const Scene<N, E>& scene, const Pencil<N>& 
 template <class N, Effects E, class Count>
 constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, Count& count)
 {
-    const Rgb<N> c = trace(scene, eye_ray(scene, at), count);
+    Rgb<N> c{}; // set apart: with its initialisation the M3 spills more registers
+    c = trace(scene, eye_ray(scene, at), count);
     return {Sample<N>::clamped(c.x, scene.exposure), Sample<N>::clamped(c.y, scene.exposure),
             Sample<N>::clamped(c.z, scene.exposure)};
 }

@@ -174,12 +174,12 @@ QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N>
         for (uint32_t i = 0; i < scene.table.count; i++) { \
             Direction<N> l{}; \
             typename N::Length distance{}; \
-            if (!towards(scene.table[i], seen.surface.point, l, distance)) \
-                continue; \
-            if constexpr (E.light_surface && Type<N>::has_place) \
-                gather(scene, seen, l, distance, scene.table[i].colour, sum, count, i); \
-            else \
-                gather(scene, seen, l, distance, scene.table[i].colour, sum, count); \
+            if (towards(scene.table[i], seen.surface.point, l, distance)) { \
+                if constexpr (E.light_surface && Type<N>::has_place) \
+                    gather(scene, seen, l, distance, scene.table[i].colour, sum, count, i); \
+                else \
+                    gather(scene, seen, l, distance, scene.table[i].colour, sum, count); \
+            } \
         }
     QRAY_LIGHTS(QRAY_GATHER)
 #undef QRAY_GATHER
