@@ -4,10 +4,10 @@
 
 #include <stdio.h>
 
-#include "balls.hpp"
 #include "resolution.hpp"
 #include "settings.hpp"
 #include "storage.hpp"
+#include "tree_builder.hpp"
 
 namespace qray::scene {
 
@@ -37,7 +37,7 @@ public:
         materials();
         camera();
         eye_surface();
-        TreeBuilder<N>(s).build();
+        build_tree(s);
         effects();
         return true;
     }

@@ -35,6 +35,11 @@ struct SplitBox {
         }
         return box;
     }
+    float half_area() const
+    {
+        const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+        return x * y + y * z + z * x;
+    }
     Quad lows() const { return quad(low); }
     Quad highs() const { return quad(high); }
     Quad centre() const { return lows() + highs(); } // twice that

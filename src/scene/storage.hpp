@@ -5,6 +5,7 @@
 #include <qray/scene/scene.hpp>
 
 #include "shapes.hpp"
+#include "split.hpp"
 
 namespace qray::scene {
 
@@ -49,9 +50,10 @@ struct Storage {
 #undef QRAY_ARRAY
 
     Array<ShapeId> shape_ids;
-    Array<BallBlock> blocks;
+    Array<BoxNode> nodes;
     Tree tree;
-    Array<SortedObject> sorted; // for the builder alone
+    Array<SplitBox> split_shapes, split_nodes; // for the builder alone, as is
+    Array<SortedObject> sorted;
 
     // Cuts empty tables from the room where it is large enough; returns how many bytes it must have.
     size_t lay_out(const Description& d)
@@ -72,8 +74,11 @@ struct Storage {
 #undef QRAY_CUT
             cut(vertices, d.vertex_count);
             cut(normals, d.vertex_count);
-            cut(shape_ids, all + bound_lanes);
-            cut(blocks, all / (bound_lanes - 1) + 64);
+            cut(shape_ids, all);
+            cut(split_shapes, all);
+            cut(split_nodes, 2 * all);
+            // All but those of leaves are full, and with two leaves each there are bound_lanes of these below one.
+            cut(nodes, (all + 1) / 2 * bound_lanes / (bound_lanes - 1) + 2);
             cut(sorted, d.object_count);
             cut(mattes, d.fill_count);
             cut(textures, d.fill_count);

@@ -63,6 +63,13 @@ inline Vec3d circle_extent(const Vec3d& n, double r)
     return {side(n.x), side(n.y), side(n.z)};
 }
 
+// The same where components of n are rounded numbers: near 1, what is left to 1 would be of their error's root.
+inline Vec3d circle_across(const Vec3d& n, double r)
+{
+    const auto side = [r](double a, double b) { return r * sqrt(a * a + b * b); };
+    return {side(n.y, n.z), side(n.z, n.x), side(n.x, n.y)};
+}
+
 // A unit vector across the unit vector n.
 inline Vec3d unit_across(const Vec3d& n)
 {

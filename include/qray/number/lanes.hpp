@@ -43,6 +43,24 @@ QRAY_INLINE uint32_t mask_bits(BoundMask m)
 #endif
 }
 
+// The lower and the higher of each.
+QRAY_INLINE Bounds lower(const Bounds& a, const Bounds& b)
+{
+#if QRAY_LANES
+    return __builtin_ia32_minps256(a, b);
+#else
+    return a < b ? a : b;
+#endif
+}
+QRAY_INLINE Bounds higher(const Bounds& a, const Bounds& b)
+{
+#if QRAY_LANES
+    return __builtin_ia32_maxps256(a, b);
+#else
+    return a > b ? a : b;
+#endif
+}
+
 // a b + c, rounded once or twice.
 QRAY_INLINE Bounds mul_add(const Bounds& a, const Bounds& b, const Bounds& c)
 {

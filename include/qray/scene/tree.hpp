@@ -1,7 +1,15 @@
-// A flat tree of bounding balls over all shapes, n = bound_lanes to a block: block b of a level bounds what blocks n b
-// to n b + n - 1 of the level below hold, and those of level 0 each bound n shapes. No pointers, no recursion.
+// A tree of boxes over all shapes, as many to a node as a register has numbers. No pointers, no recursion.
 //
-// It only says which shapes a ray may meet: conservatively, in binary32, whatever the number system.
+// It only says which shapes a ray may meet: conservatively, in binary32, whatever the number system. The proof: let a ray
+// o + t d, |d_i| <= 1, |o_i| <= 64, be at a point of a shape at t in [0, 128], and s be the distance from there to a side
+// of the shape's box at `low`, which is behind on an axis with d_i > 0; u = 2^-24. What enters() finds for that side is
+//   (low k - c)(1 + e) with k = (1 + e')/d and c = o k (1 + e''), |e| <= u each, twice that for k
+// which, with another (1 + e) on low k where a product is rounded before the sum, is at most
+//   (t - (s - 128 u)/d)(1 + 3.01 u) <= t + 386 u - (s - 128 u)
+// where it is positive. So where s >= 515 u plus what o and d lost on the way to binary32 (64 u, 128 u), and what a
+// component of d below `least` was raised by (128 least), less than 4.3e-5 in all, it is at most t. The far sides are
+// at least t by the same sum: the ray enters the box. The builder's slack is larger, by what a hit may lie outside its
+// shape: see tree_builder.hpp.
 #pragma once
 
 #include "../number/lanes.hpp"
@@ -9,13 +17,6 @@
 #include "lists.hpp"
 
 namespace qray {
-
-// In the units of BoundedRay.
-struct BallBlock {
-    Bounds x, y, z;
-    Bounds reach;  // the radius, by the length of a direction
-    Bounds square; // of that; -infinity: no ball
-};
 
 // A shape's kind and its index in the table of that kind.
 struct ShapeId {
@@ -25,179 +26,147 @@ struct ShapeId {
 };
 constexpr ShapeId shape_id(Kind kind, uint32_t index) { return {static_cast<uint32_t>(kind) << 29 | index}; }
 
-struct Tree {
-    static constexpr int max_levels = 12;
-    const BallBlock* blocks;
-    const ShapeId* shapes;        // bound_lanes for each block of level 0
-    uint32_t first[max_levels];   // block of each level
-    int32_t levels;
-    uint32_t top;                 // blocks of the highest level: few
+struct BoxNode {
+    Bounds sides[3][2];          // of boxes along each axis: low and high; none: +infinity and -infinity
+    uint32_t links[bound_lanes]; // a node's number, or leaf_link()
 };
 
-// A ray in binary32, in units that make conversion cheap: a fixed point's ulp, also for directions.
+constexpr uint32_t leaf_bit = 1u << 31;
+constexpr uint32_t leaf_link(uint32_t first, uint32_t count) { return leaf_bit | (count - 1) << 28 | first; }
+
+struct Tree {
+    static constexpr int max_depth = 40; // of a leaf, below the root
+    const BoxNode* nodes;                // the root first
+    const ShapeId* shapes;
+};
+
+// A ray in binary32.
 template <class N>
 class BoundedRay {
 public:
-    static constexpr bool raw = WideFixed<N>;
-    // A length of 1, and the length of a direction.
-    static constexpr float length = raw ? static_cast<float>(int64_t{1} << 24) : 1;
-    static constexpr float unit = raw ? static_cast<float>(int64_t{1} << 30) : 1;
-
     explicit QRAY_INLINE BoundedRay(const Ray<N>& ray)
     {
-        spread(ray.origin, ox, oy, oz);
-        spread(ray.direction, dx, dy, dz);
-        if constexpr (raw)
-            static_assert(N::Length::frac == 24 && N::Unit::frac == 30);
-        if constexpr (NarrowFixed<N>) { // the direction's length is wrong in the 14th bit
-            const Bounds k = 1.5f - 0.5f * (dx * dx + dy * dy + dz * dz);
-            dx *= k;
-            dy *= k;
-            dz *= k;
+        constexpr float least = 0x1p-30f;
+        const Parts d = parts_of_vector(ray.direction), o = parts_of_vector(ray.origin);
+        const PartSigns sign = __builtin_bit_cast(PartSigns, d) & INT32_MIN;
+        const Parts size = __builtin_bit_cast(Parts, __builtin_bit_cast(PartSigns, d) & INT32_MAX);
+        const Parts some = size > least ? size : least + Parts{};
+        const Parts k = 1.0f / __builtin_bit_cast(Parts, __builtin_bit_cast(PartSigns, some) | sign), c = o * -k;
+        for (int i = 0; i < 3; i++) {
+            inverse[i] = all_bounds(k[i]);
+            offset[i] = all_bounds(c[i]);
+            near_side[i] = static_cast<uint32_t>(sign[i]) >> 31;
         }
     }
 
-    // Which balls of a block the ray may enter.
-    QRAY_INLINE uint32_t enters(const BallBlock& b) const
+    // Which boxes of a node the ray may enter before `limit`, as bits, and where.
+    QRAY_INLINE uint32_t enters(const BoxNode& node, float limit, Bounds& from) const
     {
-        Bounds along;
-        const Bounds apart = outside(b, along);
-        return mask_bits((apart <= b.square) & ~sign(along + b.reach));
+        const auto at = [&](int axis, size_t side) __attribute__((always_inline)) {
+            return mul_add(node.sides[axis][side], inverse[axis], offset[axis]);
+        };
+        from = higher(higher(at(0, near_side[0]), at(1, near_side[1])), higher(at(2, near_side[2]), Bounds{}));
+        const Bounds to = lower(lower(at(0, near_side[0] ^ 1), at(1, near_side[1] ^ 1)),
+                                lower(at(2, near_side[2] ^ 1), all_bounds(limit)));
+        return mask_bits(from <= to);
     }
-    // Which it may enter before `limit`, times length and unit.
-    QRAY_INLINE uint32_t enters(const BallBlock& b, float limit) const
-    {
-        Bounds along;
-        const Bounds apart = outside(b, along);
-        return mask_bits((apart <= b.square) & ~sign(along + b.reach) & (along - b.reach <= limit));
-    }
+
+    // A limit, and by how much a hit that is reported before it may lie behind: a plane's, where it is seen almost edge
+    // on, and one whose direction is not quite unit.
+    static QRAY_INLINE float beyond(typename N::Length limit) { return as_float(limit) + (NarrowFixed<N> ? 1.0f : 1.0f / 16); }
+
+private:
+    typedef float Parts __attribute__((vector_size(16)));
+    typedef int32_t PartSigns __attribute__((vector_size(16)));
 
     template <class L>
     static QRAY_INLINE float as_float(L v)
     {
-        if constexpr (raw)
-            return static_cast<float>(v.raw);
-        else if constexpr (N::is_fixed)
+        if constexpr (N::is_fixed)
             return static_cast<float>(v.raw) * (1.0f / static_cast<float>(int64_t{1} << L::frac));
         else
             return static_cast<float>(v);
     }
-
-private:
-    // |v|^2 - (v.d)^2, to be compared with r^2, and v.d, which is at least -r unless the ball is behind. With
-    // |v| < 2^7 and 24 bits, each side of the first comparison is wrong by less than 2^-19 |v|^2; the builder
-    // adds to r what the rounded coordinates may be off.
-    QRAY_INLINE Bounds outside(const BallBlock& b, Bounds& along) const
-    {
-        constexpr float k = (1.0f - 0x1p-18f) * unit * unit;
-        const Bounds x = b.x - ox, y = b.y - oy, z = b.z - oz;
-        along = mul_add(z, dz, mul_add(y, dy, x * dx));
-        const Bounds square = mul_add(z, z, mul_add(y, y, x * x));
-        return square * k - along * along;
-    }
     template <class L>
-    QRAY_INLINE static void spread(const Vec<L>& v, Bounds& x, Bounds& y, Bounds& z)
+    static QRAY_INLINE Parts parts_of_vector(const Vec<L>& v)
     {
 #if QRAY_LANES
-        if constexpr (raw) {
-            const Bounds all = __builtin_convertvector(halves(v.lanes), Bounds);
-            x = __builtin_shufflevector(all, all, 0, 0, 0, 0, 0, 0, 0, 0);
-            y = __builtin_shufflevector(all, all, 2, 2, 2, 2, 2, 2, 2, 2);
-            z = __builtin_shufflevector(all, all, 4, 4, 4, 4, 4, 4, 4, 4);
-            return;
+        if constexpr (FloatLanes<N>) {
+            return v.lanes;
+        } else if constexpr (FixedLanes<N>) {
+            const Half8 h = halves(v.lanes);
+            return __builtin_convertvector(__builtin_shufflevector(h, h, 0, 2, 4, 6), Parts)
+                * (1.0f / static_cast<float>(int64_t{1} << L::frac));
         }
 #endif
-        x = all_bounds(as_float(v.x));
-        y = all_bounds(as_float(v.y));
-        z = all_bounds(as_float(v.z));
+        return Parts{as_float(v.x), as_float(v.y), as_float(v.z), 0};
     }
-    // The sign is the highest bit, which is the only one that mask_bits() sees.
-    QRAY_INLINE static BoundMask sign(const Bounds& v) { return __builtin_bit_cast(BoundMask, v); }
-    Bounds ox, oy, oz, dx, dy, dz;
+
+    Bounds inverse[3], offset[3];
+    size_t near_side[3];
 };
 
-// Goes through the tree and stops at each block of level 0 that holds shapes that the ray may meet.
-template <class N>
-class Walk {
-public:
-    QRAY_INLINE Walk(const Tree& over, const Ray<N>& ray)
-        : tree(over), bounded(ray), level(over.levels), top(0), mask(0)
-    {
-    }
-
-    // The next block, of those that the ray may enter before `limit`: its shapes, as bits of the result from `base`
-    // on. 0 at the end.
-    uint32_t next(float limit, uint32_t& base)
-    {
-        // A shape may lie a little beyond its rounded limit.
-        limit = limit * ((1.0f + 0x1p-20f) * BoundedRay<N>::unit)
-            + 0x1p-16f * BoundedRay<N>::length * BoundedRay<N>::unit;
-        for (;;) {
-            while (mask == 0) {
-                if (level >= tree.levels - 1) {
-                    if (top == tree.top)
-                        return 0;
-                    level = tree.levels - 1;
-                    block = top++;
-                    mask = bounded.enters(tree.blocks[tree.first[level] + block], limit);
-                } else {
-                    level++;
-                    block = stack[level].block;
-                    mask = stack[level].mask;
-                }
-            }
-            if (level == 0) {
-                base = block * bound_lanes;
-                const uint32_t found = mask;
-                mask = 0;
-                return found;
-            }
-            const uint32_t child = block * bound_lanes + lowest_bit(mask);
-            stack[level] = {block, mask & (mask - 1)};
-            level--;
-            block = child;
-            mask = bounded.enters(tree.blocks[tree.first[level] + block], limit);
-        }
-    }
-
-private:
-    const Tree& tree;
-    BoundedRay<N> bounded;
-    int level;
-    uint32_t top, block, mask;
-    struct {
-        uint32_t block, mask;
-    } stack[Tree::max_levels];
-};
-
-// Calls visit(ShapeId) for every shape whose ball the ray may enter before limit(), until visit returns true.
-// limit() is asked again at every block, as hits come nearer.
-template <class N, class Limit, class Visit>
+// Calls visit(ShapeId) for every shape whose box the ray may enter before limit(), until visit returns true: the nearest
+// boxes first, or in any order. limit() is asked again after each leaf, as hits come nearer.
+template <bool NearestFirst, class N, class Limit, class Visit>
 QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit visit)
 {
-    if (tree.levels == 1) { // three blocks at most: all at once
-        const BoundedRay<N> bounded(ray);
-        uint32_t mask = bounded.enters(tree.blocks[0]);
-        if (tree.top > 1)
-            mask |= bounded.enters(tree.blocks[1]) << bound_lanes;
-        if (tree.top > 2)
-            mask |= bounded.enters(tree.blocks[2]) << 2 * bound_lanes;
-        for (; mask != 0; mask &= mask - 1)
-            if (visit(tree.shapes[lowest_bit(mask)]))
+    // Boxes that wait: where the ray enters them, and above their links.
+    uint64_t stack[Tree::max_depth * (bound_lanes - 1) + 1];
+    uint64_t* top = stack;
+    const BoundedRay<N> bounded(ray);
+    float end = BoundedRay<N>::beyond(limit());
+    uint32_t link = 0;
+    for (;;) {
+        while ((link & leaf_bit) == 0) {
+            const BoxNode& node = tree.nodes[link];
+            alignas(Bounds) uint32_t from[bound_lanes];
+            Bounds entered;
+            uint32_t mask = bounded.enters(node, end, entered);
+            if (mask == 0)
+                goto next;
+            __builtin_memcpy(from, &entered, sizeof from);
+            const auto entry = [&](uint32_t i) __attribute__((always_inline)) {
+                return uint64_t{from[i]} << 32 | node.links[i]; // from >= 0: in the order of integers
+            };
+            uint32_t i = lowest_bit(mask);
+            mask &= mask - 1;
+            link = node.links[i];
+            if (mask == 0)
+                continue;
+            if constexpr (NearestFirst) {
+                uint64_t* const base = top;
+                *top++ = entry(i);
+                do {
+                    i = lowest_bit(mask);
+                    mask &= mask - 1;
+                    const uint64_t e = entry(i);
+                    uint64_t* at = top++;
+                    for (; at != base && at[-1] < e; at--)
+                        *at = at[-1];
+                    *at = e;
+                } while (mask != 0);
+                link = static_cast<uint32_t>(*--top);
+            } else {
+                do {
+                    i = lowest_bit(mask);
+                    mask &= mask - 1;
+                    *top++ = node.links[i];
+                } while (mask != 0);
+            }
+        }
+        for (uint32_t i = link & 0x0fffffff, count = (link >> 28 & 7) + 1; count != 0; i++, count--)
+            if (visit(tree.shapes[i]))
                 return;
-        return;
+        if constexpr (NearestFirst)
+            end = BoundedRay<N>::beyond(limit());
+    next:
+        do {
+            if (top == stack)
+                return;
+            link = static_cast<uint32_t>(*--top);
+        } while (NearestFirst && __builtin_bit_cast(float, static_cast<uint32_t>(*top >> 32)) > end);
     }
-    Walk<N> steps(tree, ray);
-    uint32_t base = 0;
-    // Where the direction's length is wrong in the 14th bit, so is a distance.
-    const auto bound = [&limit] {
-        const float t = BoundedRay<N>::as_float(limit());
-        return NarrowFixed<N> ? t * (1.0f + 0x1p-12f) + 0x1p-6f : t;
-    };
-    while (uint32_t mask = steps.next(bound(), base))
-        for (; mask != 0; mask &= mask - 1)
-            if (visit(tree.shapes[base + lowest_bit(mask)]))
-                return;
 }
 
 } // namespace qray

@@ -84,7 +84,20 @@ struct Host<Cone> : HostOfShape {
                             Convert<N>::rounded(b.frame.point(middle), fine)};
     }
     template <class N>
-    static Ball bound(const Cone<N>& s) { return ball_around(s.middle, ldexp(value(s.bound), -s.fine)); }
+    static Extent box(const Cone<N>& s, const Corners<N>&)
+    {
+        const double down = ldexp(1, -s.fine), bound = value(s.bound) * down;
+        if constexpr (NarrowFixed<N>) // too coarse a cosine to divide by
+            return ball_extent(value(s.middle), bound);
+        Extent box;
+        const Vec3d axis = unit(value(s.axis));
+        for (const double half : {-value(s.half) * down, value(s.half) * down}) {
+            // The test's own roundings, for each of its products, are divided by the cosine as well.
+            const double r = (value(s.rho0) * down + value(s.sine) * half + 1e-4) / value(s.cosine);
+            box.add(value(s.middle) + axis * half, circle_across(axis, fmin(bound, fmax(0, r))));
+        }
+        return box;
+    }
 
     template <class R>
     static auto random(R& r)

@@ -75,8 +75,6 @@ struct HostOfCorners : HostOfShape {
     {
         add_corners(box, d.vertices + o.vertex, o.count);
     }
-    template <class S>
-    static Ball bound(const S& s) { return ball_around(s.middle, value(s.bound)); }
 };
 
 // A figure is taken for what its extent holds of its plane: a ray from there meets nothing of it.

@@ -54,7 +54,12 @@ struct Host<Disc> : HostOfShape {
         b.s.discs.push() = {b.point(centre), Convert<N>::direction(n), b.length(r), make_tag(place, o.fill)};
     }
     template <class N>
-    static Ball bound(const Disc<N>& s) { return ball_around(s.centre, value(s.radius)); }
+    static Extent box(const Disc<N>& s, const Corners<N>&)
+    {
+        Extent box;
+        box.add(value(s.centre), circle_across(unit(value(s.normal)), value(s.radius)));
+        return box;
+    }
 
     template <class R>
     static auto random(R& r)

@@ -6,7 +6,7 @@
 //   extent          adds an object to a box
 //   lies_on         is a point no farther than `off` from an object (of several surfaces, the part-th), on which side?
 //   convert         pushes the tracer's structures of an object, by a Builder
-//   bound           a ball around the tracer's structure, for the tree
+//   box             the extent of the tracer's structure in the moved and scaled scene, for trees
 //   random          a random object as text, for tests
 // and, where it differs from HostOfShape's, surfaces_of, widest, range and is_endless.
 #pragma once
@@ -39,23 +39,23 @@ struct HostOfShape {
     static bool is_endless(const Object&) { return false; }
 };
 
-// The ball of a shape in double, in the moved and scaled scene.
-struct Ball {
-    Vec3d centre;
-    double radius;
-};
+// What the tracer's numbers are.
 template <class L>
 double value(L v)
 {
     if constexpr (requires { v.raw; })
-        return ldexp(v.raw, -L::frac);
+        return v.raw / static_cast<double>(int64_t{1} << L::frac);
     else
         return static_cast<double>(v);
 }
 template <class L>
-Ball ball_around(const Vec<L>& centre, double radius)
+Vec3d value(const Vec<L>& v) { return {value(v.x), value(v.y), value(v.z)}; }
+
+inline Extent ball_extent(const Vec3d& centre, double radius)
 {
-    return {{value(centre.x), value(centre.y), value(centre.z)}, radius};
+    Extent box;
+    box.add(centre, {radius, radius, radius});
+    return box;
 }
 
 } // namespace qray::scene

@@ -57,6 +57,14 @@ struct Host<Patch> : HostOfCorners {
                                   make_tag(place, o.fill)};
         }
     }
+    template <class N>
+    static Extent box(const Patch<N>& s, const Corners<N>& corners)
+    {
+        Extent box;
+        for (const uint32_t i : {s.first, s.second, s.second + 1})
+            box.add(value(corners.points[i]));
+        return box;
+    }
 
     template <class R>
     static auto random(R& r) { return r.figure("pp", 3 + r.below(3), true); }

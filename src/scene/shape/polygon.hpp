@@ -41,6 +41,14 @@ struct Host<Polygon> : HostOfCorners {
         b.s.polygons.push() = {Convert<N>::direction(unit(g)), around.middle, around.radius, first, o.count,
                                make_tag(place, o.fill)};
     }
+    template <class N>
+    static Extent box(const Polygon<N>& s, const Corners<N>& corners)
+    {
+        Extent box;
+        for (uint32_t i = s.first; i != s.first + s.count; i++)
+            box.add(value(corners.points[i]));
+        return box;
+    }
 
     template <class R>
     static auto random(R& r) { return r.figure("p", 3 + r.below(8), false); }

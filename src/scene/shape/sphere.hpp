@@ -43,7 +43,10 @@ struct Host<Sphere> : HostOfShape {
                               Convert<N>::rounded(b.frame.point(o.a), fine)};
     }
     template <class N>
-    static Ball bound(const Sphere<N>& s) { return ball_around(s.centre, ldexp(value(s.radius), -s.fine)); }
+    static Extent box(const Sphere<N>& s, const Corners<N>&)
+    {
+        return ball_extent(value(s.centre), ldexp(value(s.radius), -s.fine));
+    }
 
     template <class R>
     static auto random(R& r) { return "s " + r.point() + " " + r.radius(); }

@@ -1,0 +1,70 @@
+// Builds the desktop's tree of boxes from the binary one.
+#pragma once
+
+#include "split.hpp"
+#include "storage.hpp"
+
+namespace qray::scene {
+
+// A hit lies outside its shape by less, in the moved and scaled scene, than this less 4.3e-5, which is what tree.hpp may
+// be off by: some roundings of lengths up to 124, in q16 as far as its direction leads astray in 14 bits.
+template <class N>
+inline constexpr double box_slack = NarrowFixed<N> ? 1.0 / 16 : 0x1p-13;
+
+template <class N>
+void build_tree(Storage<N>& s)
+{
+    static_assert(Tree::max_depth == max_split_depth);
+    s.split_shapes.count = s.nodes.count = s.shape_ids.count = 0;
+#define QRAY_ADD(Type, name, table) \
+    for (uint32_t i = 0; i < s.table.count; i++) \
+        s.split_shapes.push() = SplitBox::around(Host<Type>::box(s.table.data[i], {s.vertices.data, s.normals.data}), \
+                                                 box_slack<N>, shape_id(Kind::name, i).bits);
+    QRAY_SHAPES(QRAY_ADD)
+#undef QRAY_ADD
+    const uint32_t count = s.split_shapes.count;
+    const SplitBox* const split = s.split_nodes.data;
+    split_by_area(s.split_shapes.data, count, count <= bound_lanes ? 1 : 2, s.split_nodes.data);
+    for (uint32_t i = 0; i < count; i++)
+        s.shape_ids.push() = {s.split_shapes.data[i].first};
+
+    // A node's first link is, until it is made, the part of the binary tree that it stands for.
+    s.nodes.push().links[0] = 0;
+    for (uint32_t made = 0; made < s.nodes.count; made++) {
+        BoxNode& node = s.nodes.data[made];
+        // The largest part is taken apart until there are enough.
+        uint32_t parts[bound_lanes] = {node.links[0]}, filled = count != 0;
+        while (filled != 0 && filled < bound_lanes) {
+            float most = -1;
+            uint32_t largest = 0;
+            for (uint32_t i = 0; i < filled; i++)
+                if (const SplitBox& part = split[parts[i]]; part.count == 0 && part.half_area() > most) {
+                    most = part.half_area();
+                    largest = i;
+                }
+            if (most < 0)
+                break;
+            parts[filled++] = split[parts[largest]].first + 1;
+            parts[largest] = split[parts[largest]].first;
+        }
+        for (uint32_t i = 0; i < bound_lanes; i++) {
+            const bool present = i < filled;
+            for (int axis = 0; axis < 3; axis++) {
+                node.sides[axis][0][i] = present ? split[parts[i]].low[axis] : HUGE_VALF;
+                node.sides[axis][1][i] = present ? split[parts[i]].high[axis] : -HUGE_VALF;
+            }
+            node.links[i] = 0;
+            if (!present)
+                continue;
+            if (const SplitBox& part = split[parts[i]]; part.count != 0) {
+                node.links[i] = leaf_link(part.first, part.count);
+            } else {
+                node.links[i] = s.nodes.count;
+                s.nodes.push().links[0] = parts[i];
+            }
+        }
+    }
+    s.tree = {s.nodes.data, s.shape_ids.data};
+}
+
+} // namespace qray::scene
