@@ -31,6 +31,13 @@ struct BoxNode {
     uint32_t links[bound_lanes]; // a node's number, or leaf_link()
 };
 
+// In the units of BallRay.
+struct BallNode {
+    Bounds x, y, z;
+    Bounds reach;  // the radius, by the length of a direction
+    Bounds square; // of that; -infinity: no ball
+};
+
 constexpr uint32_t leaf_bit = 1u << 31;
 constexpr uint32_t leaf_link(uint32_t first, uint32_t count) { return leaf_bit | (count - 1) << 28 | first; }
 
@@ -38,72 +45,130 @@ struct Tree {
     static constexpr int max_depth = 40; // of a leaf, below the root
     const BoxNode* nodes;                // the root first
     const ShapeId* shapes;
+    const BallNode* balls; // or else, of so few shapes, this is all
 };
 
-// A ray in binary32.
+typedef float BoundParts __attribute__((vector_size(16)));
+typedef int32_t BoundSigns __attribute__((vector_size(16)));
+
+// x, y, z as numbers, a fixed point's in its ulp.
+template <class N, class L>
+QRAY_INLINE BoundParts bound_parts(const Vec<L>& v)
+{
+#if QRAY_LANES
+    if constexpr (FloatLanes<N>) {
+        return v.lanes;
+    } else if constexpr (FixedLanes<N>) {
+        const Half8 h = halves(v.lanes);
+        return __builtin_convertvector(__builtin_shufflevector(h, h, 0, 2, 4, 6), BoundParts);
+    }
+#endif
+    if constexpr (N::is_fixed)
+        return __builtin_convertvector(BoundSigns{v.x.raw, v.y.raw, v.z.raw}, BoundParts);
+    else
+        return BoundParts{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+template <class N, class L>
+inline constexpr float bound_ulp = [] {
+    if constexpr (N::is_fixed)
+        return 1.0f / static_cast<float>(int64_t{1} << L::frac);
+    else
+        return 1.0f;
+}();
+
+// A ray as it is held against boxes.
 template <class N>
-class BoundedRay {
+class BoxRay {
 public:
-    explicit QRAY_INLINE BoundedRay(const Ray<N>& ray)
+    explicit QRAY_INLINE BoxRay(const Ray<N>& ray)
     {
-        constexpr float least = 0x1p-30f;
-        const Parts d = parts_of_vector(ray.direction), o = parts_of_vector(ray.origin);
-        const PartSigns sign = __builtin_bit_cast(PartSigns, d) & INT32_MIN;
-        const Parts size = __builtin_bit_cast(Parts, __builtin_bit_cast(PartSigns, d) & INT32_MAX);
-        const Parts some = size > least ? size : least + Parts{};
-        const Parts k = 1.0f / __builtin_bit_cast(Parts, __builtin_bit_cast(PartSigns, some) | sign), c = o * -k;
-        for (int i = 0; i < 3; i++) {
-            inverse[i] = all_bounds(k[i]);
-            offset[i] = all_bounds(c[i]);
-            near_side[i] = static_cast<uint32_t>(sign[i]) >> 31;
-        }
+        using Length = typename N::Length;
+        using Unit = typename N::Unit;
+        constexpr float least = 0x1p-30f / bound_ulp<N, Unit>;
+        const BoundParts d = bound_parts<N>(ray.direction);
+        const BoundSigns bits = __builtin_bit_cast(BoundSigns, d), sign = bits & INT32_MIN;
+        const BoundParts size = __builtin_bit_cast(BoundParts, bits & INT32_MAX);
+        const BoundParts most = size > least ? size : least + BoundParts{};
+        const BoundParts k = (1.0f / bound_ulp<N, Unit>) / __builtin_bit_cast(BoundParts, __builtin_bit_cast(BoundSigns, most) | sign);
+        const BoundParts c = bound_parts<N>(ray.origin) * (k * -bound_ulp<N, Length>);
+        kx = all_bounds(k[0]);
+        ky = all_bounds(k[1]);
+        kz = all_bounds(k[2]);
+        cx = all_bounds(c[0]);
+        cy = all_bounds(c[1]);
+        cz = all_bounds(c[2]);
+        near_x = sign[0] < 0 ? sizeof(Bounds) : 0;
+        near_y = sign[1] < 0 ? sizeof(Bounds) : 0;
+        near_z = sign[2] < 0 ? sizeof(Bounds) : 0;
     }
 
     // Which boxes of a node the ray may enter before `limit`, as bits, and where.
     QRAY_INLINE uint32_t enters(const BoxNode& node, float limit, Bounds& from) const
     {
-        const auto at = [&](int axis, size_t side) __attribute__((always_inline)) {
-            return mul_add(node.sides[axis][side], inverse[axis], offset[axis]);
+        const auto side = [&node](int axis, size_t offset) __attribute__((always_inline)) -> const Bounds& {
+            return *reinterpret_cast<const Bounds*>(reinterpret_cast<const char*>(node.sides[axis]) + offset);
         };
-        from = higher(higher(at(0, near_side[0]), at(1, near_side[1])), higher(at(2, near_side[2]), Bounds{}));
-        const Bounds to = lower(lower(at(0, near_side[0] ^ 1), at(1, near_side[1] ^ 1)),
-                                lower(at(2, near_side[2] ^ 1), all_bounds(limit)));
+        constexpr size_t other = sizeof(Bounds);
+        from = higher(higher(mul_add(side(0, near_x), kx, cx), mul_add(side(1, near_y), ky, cy)),
+                      higher(mul_add(side(2, near_z), kz, cz), Bounds{}));
+        const Bounds to = lower(lower(mul_add(side(0, near_x ^ other), kx, cx), mul_add(side(1, near_y ^ other), ky, cy)),
+                                lower(mul_add(side(2, near_z ^ other), kz, cz), all_bounds(limit)));
         return mask_bits(from <= to);
     }
 
     // A limit, and by how much a hit that is reported before it may lie behind: a plane's, where it is seen almost edge
     // on, and one whose direction is not quite unit.
-    static QRAY_INLINE float beyond(typename N::Length limit) { return as_float(limit) + (NarrowFixed<N> ? 1.0f : 1.0f / 16); }
+    static QRAY_INLINE float beyond(typename N::Length limit)
+    {
+        constexpr float more = NarrowFixed<N> ? 1.0f : 1.0f / 16;
+        if constexpr (N::is_fixed)
+            return static_cast<float>(limit.raw) * bound_ulp<N, typename N::Length> + more;
+        else
+            return static_cast<float>(limit) + more;
+    }
 
 private:
-    typedef float Parts __attribute__((vector_size(16)));
-    typedef int32_t PartSigns __attribute__((vector_size(16)));
+    Bounds kx, ky, kz, cx, cy, cz;   // 1/d and -o/d
+    size_t near_x, near_y, near_z; // the near side of each axis, in bytes behind the low one
+};
 
-    template <class L>
-    static QRAY_INLINE float as_float(L v)
+// A ray as it is held against balls, where these are few: it needs no quotients. In units that make conversion cheap: a
+// fixed point's ulp, also for directions.
+template <class N>
+class BallRay {
+public:
+    // A length of 1, and the length of a direction.
+    static constexpr float length = 1 / bound_ulp<N, typename N::Length>, unit = 1 / bound_ulp<N, typename N::Unit>;
+
+    explicit QRAY_INLINE BallRay(const Ray<N>& ray)
     {
-        if constexpr (N::is_fixed)
-            return static_cast<float>(v.raw) * (1.0f / static_cast<float>(int64_t{1} << L::frac));
-        else
-            return static_cast<float>(v);
-    }
-    template <class L>
-    static QRAY_INLINE Parts parts_of_vector(const Vec<L>& v)
-    {
-#if QRAY_LANES
-        if constexpr (FloatLanes<N>) {
-            return v.lanes;
-        } else if constexpr (FixedLanes<N>) {
-            const Half8 h = halves(v.lanes);
-            return __builtin_convertvector(__builtin_shufflevector(h, h, 0, 2, 4, 6), Parts)
-                * (1.0f / static_cast<float>(int64_t{1} << L::frac));
-        }
-#endif
-        return Parts{as_float(v.x), as_float(v.y), as_float(v.z), 0};
+        const BoundParts o = bound_parts<N>(ray.origin);
+        BoundParts d = bound_parts<N>(ray.direction);
+        if constexpr (NarrowFixed<N>) // the direction's length is wrong in the 14th bit
+            d *= 1.5f - 0.5f / (unit * unit) * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        ox = all_bounds(o[0]);
+        oy = all_bounds(o[1]);
+        oz = all_bounds(o[2]);
+        dx = all_bounds(d[0]);
+        dy = all_bounds(d[1]);
+        dz = all_bounds(d[2]);
     }
 
-    Bounds inverse[3], offset[3];
-    size_t near_side[3];
+    // Which balls the ray may enter. |v|^2 - (v.d)^2 is compared with r^2, and v.d is at least -r unless the ball is
+    // behind. With |v| < 2^7 and 24 bits, each side of the first comparison is wrong by less than 2^-19 |v|^2; the builder
+    // adds to r what the rounded coordinates may be off.
+    QRAY_INLINE uint32_t enters(const BallNode& b) const
+    {
+        constexpr float k = (1.0f - 0x1p-18f) * unit * unit;
+        const Bounds x = b.x - ox, y = b.y - oy, z = b.z - oz;
+        const Bounds along = mul_add(z, dz, mul_add(y, dy, x * dx));
+        const Bounds apart = mul_add(z, z, mul_add(y, y, x * x)) * k - along * along;
+        // The sign is the highest bit, which is the only one that mask_bits() sees.
+        return mask_bits((apart <= b.square) & ~__builtin_bit_cast(BoundMask, along + b.reach));
+    }
+
+private:
+    Bounds ox, oy, oz, dx, dy, dz;
 };
 
 // Calls visit(ShapeId) for every shape whose box the ray may enter before limit(), until visit returns true: the nearest
@@ -114,8 +179,14 @@ QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit vi
     // Boxes that wait: where the ray enters them, and above their links.
     uint64_t stack[Tree::max_depth * (bound_lanes - 1) + 1];
     uint64_t* top = stack;
-    const BoundedRay<N> bounded(ray);
-    float end = BoundedRay<N>::beyond(limit());
+    if (tree.balls != nullptr) {
+        for (uint32_t mask = BallRay<N>(ray).enters(*tree.balls); mask != 0; mask &= mask - 1)
+            if (visit(tree.shapes[lowest_bit(mask)]))
+                return;
+        return;
+    }
+    const BoxRay<N> bounded(ray);
+    float end = BoxRay<N>::beyond(limit());
     uint32_t link = 0;
     for (;;) {
         while ((link & leaf_bit) == 0) {
@@ -159,7 +230,7 @@ QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit vi
             if (visit(tree.shapes[i]))
                 return;
         if constexpr (NearestFirst)
-            end = BoundedRay<N>::beyond(limit());
+            end = BoxRay<N>::beyond(limit());
     next:
         do {
             if (top == stack)
