@@ -51,7 +51,7 @@ struct Storage {
 
     Array<ShapeId> shape_ids;
     Array<BoxNode> nodes;
-    BallNode balls;
+    BallNode balls[Tree::most_balls];
     Tree tree;
     Array<SplitBox> split_shapes, split_nodes; // for the builder alone, as is
     Array<SortedObject> sorted;

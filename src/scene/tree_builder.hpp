@@ -55,10 +55,11 @@ void build_tree(Storage<N>& s)
     const uint32_t count = s.split_shapes.count;
     for (uint32_t i = 0; i < count; i++)
         s.shape_ids.push() = {s.split_shapes.data[i].first};
-    s.tree = {s.nodes.data, s.shape_ids.data, count <= bound_lanes ? &s.balls : nullptr};
-    if (count <= bound_lanes) {
-        for (uint32_t i = 0; i < bound_lanes; i++)
-            set_ball<N>(s.balls, i, i < count ? &s.split_shapes.data[i] : nullptr);
+    const uint32_t ball_nodes = count == 0 ? 1 : (count + bound_lanes - 1) / bound_lanes;
+    s.tree = {s.nodes.data, s.shape_ids.data, ball_nodes <= Tree::most_balls ? ball_nodes : 0, s.balls};
+    if (s.tree.ball_nodes != 0) {
+        for (uint32_t i = 0; i < ball_nodes * bound_lanes; i++)
+            set_ball<N>(s.balls[i / bound_lanes], i % bound_lanes, i < count ? &s.split_shapes.data[i] : nullptr);
         return;
     }
     const SplitBox* const split = s.split_nodes.data;

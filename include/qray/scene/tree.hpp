@@ -45,7 +45,9 @@ struct Tree {
     static constexpr int max_depth = 40; // of a leaf, below the root
     const BoxNode* nodes;                // the root first
     const ShapeId* shapes;
-    const BallNode* balls; // or else, of so few shapes, this is all
+    static constexpr uint32_t most_balls = 3;
+    uint32_t ball_nodes; // so few shapes have, instead, balls around them; else 0
+    const BallNode* balls;
 };
 
 typedef float BoundParts __attribute__((vector_size(16)));
@@ -179,8 +181,12 @@ QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit vi
     // Boxes that wait: where the ray enters them, and above their links.
     uint64_t stack[Tree::max_depth * (bound_lanes - 1) + 1];
     uint64_t* top = stack;
-    if (tree.balls != nullptr) {
-        for (uint32_t mask = BallRay<N>(ray).enters(*tree.balls); mask != 0; mask &= mask - 1)
+    if (tree.ball_nodes != 0) {
+        const BallRay<N> held(ray);
+        uint32_t mask = held.enters(tree.balls[0]);
+        for (uint32_t i = 1; i < tree.ball_nodes; i++)
+            mask |= held.enters(tree.balls[i]) << i * bound_lanes;
+        for (; mask != 0; mask &= mask - 1)
             if (visit(tree.shapes[lowest_bit(mask)]))
                 return;
         return;
