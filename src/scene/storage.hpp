@@ -49,10 +49,11 @@ struct Storage {
     QRAY_TABLES(QRAY_ARRAY)
 #undef QRAY_ARRAY
 
-    Array<ShapeId> shape_ids;
+    Array<TreeShape> tree_shapes;
+    Array<OutlineBlock<N>> outlines;
     Array<BoxNode> nodes;
-    BallNode balls[Tree::most_balls];
-    Tree tree;
+    BallNode balls[Tree<N>::most_balls];
+    Tree<N> tree;
     Array<SplitBox> split_shapes, split_nodes; // for the builder alone, as is
     Array<SortedObject> sorted;
 
@@ -75,7 +76,9 @@ struct Storage {
 #undef QRAY_CUT
             cut(vertices, d.vertex_count);
             cut(normals, d.vertex_count);
-            cut(shape_ids, all);
+            cut(tree_shapes, all);
+            if constexpr (has_outlines<N>) // of the three edges of a triangle, in a patch, two are its own
+                cut(outlines, 2 * d.vertex_count / bound_lanes + all);
             cut(split_shapes, all);
             cut(split_nodes, 2 * all);
             // All but those of leaves are full, and with two leaves each there are bound_lanes of these below one.

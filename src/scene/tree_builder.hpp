@@ -42,10 +42,79 @@ void set_ball(BallNode& balls, uint32_t i, const SplitBox* box)
 }
 
 template <class N>
+class OutlineBuilder {
+public:
+    explicit OutlineBuilder(Storage<N>& storage) : s(storage) {}
+
+    // The shapes of a leaf, those with few edges together in a block.
+    void add(uint32_t first, uint32_t count)
+    {
+        filled = bound_lanes;
+        for (uint32_t i = first; i != first + count; i++) {
+            const ShapeId id{s.split_shapes.data[i].first};
+            TreeShape& shape = s.tree_shapes.data[i];
+            shape = {id, 0, 0, 0};
+            if constexpr (has_outlines<N>) {
+                if (id.kind() == Kind::polygon) {
+                    const Polygon<N>& p = s.polygons.data[id.index()];
+                    outline(shape, p.count, [&p](uint32_t corner) { return p.first + corner; });
+                } else if (id.kind() == Kind::patch) {
+                    const Patch<N>& p = s.patches.data[id.index()];
+                    outline(shape, 3, [&p](uint32_t corner) { return corner == 0 ? p.first : p.second + corner - 1; });
+                }
+            }
+        }
+    }
+
+private:
+    Storage<N>& s;
+    uint32_t filled; // edges of the last block
+
+    template <class Number>
+    void outline(TreeShape& shape, uint32_t count, Number number)
+    {
+        if (count > bound_lanes - filled)
+            filled = bound_lanes;
+        shape.block = s.outlines.count - (filled < bound_lanes);
+        const uint32_t begin = filled % bound_lanes;
+        for (uint32_t i = 0; i < count; i++, filled++) {
+            const Point<N>& a = s.vertices.data[number(i)];
+            const Point<N>& b = s.vertices.data[number((i + 1) % count)];
+            if (filled == bound_lanes) {
+                filled = 0;
+                s.outlines.push();
+                for (uint32_t lane = 0; lane < bound_lanes; lane++)
+                    put(lane, a, a); // an edge without length crosses nothing
+            }
+            put(filled, a, b);
+        }
+        shape.blocks = s.outlines.count - shape.block;
+        shape.edges = shape.blocks > 1 ? (1u << bound_lanes) - 1 : ((1u << count) - 1) << begin;
+    }
+    void put(uint32_t lane, const Point<N>& a, const Point<N>& b)
+    {
+        const Point<N>* const ends[] = {&a, &b};
+        for (int end = 0; end < 2; end++) {
+            auto& rows = s.outlines.data[s.outlines.count - 1].ends[end];
+            rows[0][lane] = coordinate(ends[end]->x);
+            rows[1][lane] = coordinate(ends[end]->y);
+            rows[2][lane] = coordinate(ends[end]->z);
+        }
+    }
+    static auto coordinate(typename N::Length v)
+    {
+        if constexpr (N::is_fixed)
+            return v.raw;
+        else
+            return v;
+    }
+};
+
+template <class N>
 void build_tree(Storage<N>& s)
 {
-    static_assert(Tree::max_depth == max_split_depth);
-    s.split_shapes.count = s.nodes.count = s.shape_ids.count = 0;
+    static_assert(Tree<N>::max_depth == max_split_depth);
+    s.split_shapes.count = s.nodes.count = s.tree_shapes.count = s.outlines.count = 0;
 #define QRAY_ADD(Type, name, table) \
     for (uint32_t i = 0; i < s.table.count; i++) \
         s.split_shapes.push() = SplitBox::around(Host<Type>::box(s.table.data[i], {s.vertices.data, s.normals.data}), \
@@ -53,19 +122,18 @@ void build_tree(Storage<N>& s)
     QRAY_SHAPES(QRAY_ADD)
 #undef QRAY_ADD
     const uint32_t count = s.split_shapes.count;
-    for (uint32_t i = 0; i < count; i++)
-        s.shape_ids.push() = {s.split_shapes.data[i].first};
+    OutlineBuilder<N> outlines(s);
+    s.tree_shapes.count = count;
     const uint32_t ball_nodes = count == 0 ? 1 : (count + bound_lanes - 1) / bound_lanes;
-    s.tree = {s.nodes.data, s.shape_ids.data, ball_nodes <= Tree::most_balls ? ball_nodes : 0, s.balls};
+    s.tree = {s.nodes.data, s.tree_shapes.data, s.outlines.data, ball_nodes <= Tree<N>::most_balls ? ball_nodes : 0, s.balls};
     if (s.tree.ball_nodes != 0) {
         for (uint32_t i = 0; i < ball_nodes * bound_lanes; i++)
             set_ball<N>(s.balls[i / bound_lanes], i % bound_lanes, i < count ? &s.split_shapes.data[i] : nullptr);
+        outlines.add(0, count);
         return;
     }
     const SplitBox* const split = s.split_nodes.data;
     split_by_area(s.split_shapes.data, count, 2, s.split_nodes.data);
-    for (uint32_t i = 0; i < count; i++)
-        s.shape_ids.data[i] = {s.split_shapes.data[i].first};
     // A node's first link is, until it is made, the part of the binary tree that it stands for.
     s.nodes.push().links[0] = 0;
     for (uint32_t made = 0; made < s.nodes.count; made++) {
@@ -93,6 +161,7 @@ void build_tree(Storage<N>& s)
                 s.nodes.push().links[0] = parts[i];
             } else if (part != nullptr) {
                 node.links[i] = leaf_link(part->first, part->count);
+                outlines.add(part->first, part->count);
             }
         }
     }

@@ -49,7 +49,7 @@ struct Scene {
     [[no_unique_address]] Maybe<bool, E.shadow> shadows{};
     [[no_unique_address]] Maybe<uint8_t, E.adaptive> levels{};
     [[no_unique_address]] Maybe<typename N::Unit, E.adaptive> threshold{};
-    [[no_unique_address]] Maybe<Tree, E.tree> tree{};
+    [[no_unique_address]] Maybe<Tree<N>, E.tree> tree{};
 
 #define QRAY_TABLE(Type, name, table) [[no_unique_address]] Table<Type<N>, E.name> table{};
     QRAY_TABLES(QRAY_TABLE)

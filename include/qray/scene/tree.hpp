@@ -12,9 +12,8 @@
 // shape: see tree_builder.hpp.
 #pragma once
 
-#include "../number/lanes.hpp"
-#include "../vector/ray.hpp"
 #include "lists.hpp"
+#include "outline.hpp"
 
 namespace qray {
 
@@ -41,10 +40,18 @@ struct BallNode {
 constexpr uint32_t leaf_bit = 1u << 31;
 constexpr uint32_t leaf_link(uint32_t first, uint32_t count) { return leaf_bit | (count - 1) << 28 | first; }
 
+// A shape, and its outline if it has one: all edges of some blocks, or those of `edges`, as bits, of one.
+struct TreeShape {
+    ShapeId id;
+    uint32_t block, blocks, edges;
+};
+
+template <class N>
 struct Tree {
     static constexpr int max_depth = 40; // of a leaf, below the root
     const BoxNode* nodes;                // the root first
-    const ShapeId* shapes;
+    const TreeShape* shapes;
+    const OutlineBlock<N>* outlines;
     static constexpr uint32_t most_balls = 3;
     uint32_t ball_nodes; // so few shapes have, instead, balls around them; else 0
     const BallNode* balls;
@@ -173,13 +180,50 @@ private:
     Bounds ox, oy, oz, dx, dy, dz;
 };
 
-// Calls visit(ShapeId) for every shape whose box the ray may enter before limit(), until visit returns true: the nearest
-// boxes first, or in any order. limit() is asked again after each leaf, as hits come nearer.
-template <bool NearestFirst, class N, class Limit, class Visit>
-QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit visit)
+// A ray as it is held against the outlines of a leaf's shapes.
+template <class N, bool Has>
+struct Outlines {
+    explicit QRAY_INLINE Outlines(const Ray<N>&) {}
+    QRAY_INLINE bool surely_missed(const Tree<N>&, const TreeShape&, bool&) { return false; }
+};
+template <class N>
+struct Outlines<N, true> {
+    OutlineRay<N> ray;
+    uint32_t held = ~0u, crossed = 0, unsure = 0; // block number `held`
+
+    explicit QRAY_INLINE Outlines(const Ray<N>& r) : ray(r) {}
+    QRAY_INLINE bool surely_missed(const Tree<N>& tree, const TreeShape& shape, bool& open)
+    {
+        if (shape.blocks == 0)
+            return false;
+        if (shape.block != held) {
+            held = shape.block;
+            crossed = ray.crossed(tree.outlines[held], unsure);
+        }
+        uint32_t edges = crossed & shape.edges, doubt = unsure & shape.edges;
+        for (uint32_t i = 1; i < shape.blocks; i++) {
+            uint32_t more = 0;
+            edges ^= ray.crossed(tree.outlines[shape.block + i], more);
+            doubt |= more;
+        }
+        open = doubt != 0;
+        return !open && !__builtin_parity(edges);
+    }
+};
+
+// Calls visit(ShapeId, open) for every shape whose box the ray may enter before limit(), and whose outline, if it has one,
+// it passes inside of or, where that is open, may do so, until visit returns true: the nearest boxes first, or in any order.
+// limit() is asked again after each leaf, as hits come nearer.
+template <bool NearestFirst, bool HasCorners, class N, class Limit, class Visit>
+QRAY_INLINE void walk(const Tree<N>& tree, const Ray<N>& ray, Limit limit, Visit visit)
 {
+    Outlines<N, HasCorners && has_outlines<N>> outlines(ray);
+    const auto ask = [&](const TreeShape& shape) __attribute__((always_inline)) {
+        bool open = false;
+        return !outlines.surely_missed(tree, shape, open) && visit(shape.id, open);
+    };
     // Boxes that wait: where the ray enters them, and above their links.
-    uint64_t stack[Tree::max_depth * (bound_lanes - 1) + 1];
+    uint64_t stack[Tree<N>::max_depth * (bound_lanes - 1) + 1];
     uint64_t* top = stack;
     if (tree.ball_nodes != 0) {
         const BallRay<N> held(ray);
@@ -187,7 +231,7 @@ QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit vi
         for (uint32_t i = 1; i < tree.ball_nodes; i++)
             mask |= held.enters(tree.balls[i]) << i * bound_lanes;
         for (; mask != 0; mask &= mask - 1)
-            if (visit(tree.shapes[lowest_bit(mask)]))
+            if (ask(tree.shapes[lowest_bit(mask)]))
                 return;
         return;
     }
@@ -233,7 +277,7 @@ QRAY_INLINE void walk(const Tree& tree, const Ray<N>& ray, Limit limit, Visit vi
             }
         }
         for (uint32_t i = link & 0x0fffffff, count = (link >> 28 & 7) + 1; count != 0; i++, count--)
-            if (visit(tree.shapes[i]))
+            if (ask(tree.shapes[i]))
                 return;
         if constexpr (NearestFirst)
             end = BoxRay<N>::beyond(limit());

@@ -157,16 +157,11 @@ constexpr bool plane_distance(const Direction<N>& normal, uint32_t count, Corner
     return t > N::length_zero && t <= limit;
 }
 
-// Corners are given relative to the ray's origin by corner(i).
+// Does the ray's line pass inside of the outline? Corners are given relative to the ray's origin by corner(i).
 template <class N, class Corner>
-constexpr bool intersect_corners(const Direction<N>& normal, uint32_t count, Corner corner, const Ray<N>& ray,
-                                 typename N::Length limit, typename N::Length& t)
+QRAY_INLINE constexpr bool encloses(uint32_t count, Corner corner, const Direction<N>& d)
 {
-    const auto den = dot<N>(ray.direction, normal);
-    const bool edge_on = N::nearly_zero(den);
-    if (!edge_on && !intersect_plane<N>(dot<N>(corner(0), normal), den, limit, t))
-        return false;
-    const Shear<N> shear(ray.direction);
+    const Shear<N> shear(d);
     bool inside = false;
     uint32_t last = count - 1;
     Sheared<N> a = shear.below(corner(last));
@@ -180,8 +175,21 @@ constexpr bool intersect_corners(const Direction<N>& normal, uint32_t count, Cor
         a = b;
         last = i;
     }
-    if (!inside)
+    return inside;
+}
+
+// Enclosed: the ray is known to pass inside.
+template <bool Enclosed, class N, class Corner>
+constexpr bool intersect_corners(const Direction<N>& normal, uint32_t count, Corner corner, const Ray<N>& ray,
+                                 typename N::Length limit, typename N::Length& t)
+{
+    const auto den = dot<N>(ray.direction, normal);
+    const bool edge_on = N::nearly_zero(den);
+    if (!edge_on && !intersect_plane<N>(dot<N>(corner(0), normal), den, limit, t))
         return false;
+    if constexpr (!Enclosed)
+        if (!encloses<N>(count, corner, ray.direction))
+            return false;
     // A rounded normal may put the plane beside the corners.
     if constexpr (!NarrowFixed<N>)
         if (!edge_on)

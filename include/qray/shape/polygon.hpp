@@ -23,32 +23,42 @@ QRAY_INLINE constexpr bool surely_missed(const Polygon<N>& s, const RejectRay<N>
     return ray.misses_ball(s.middle, s.bound);
 }
 
-// t in (0, limit], or false. The polygon that the ray starts on does not count.
+// Corners as seen from the ray's origin.
 template <class N>
+QRAY_INLINE constexpr auto corners_from(const Polygon<N>& s, const Point<N>* corners, const Ray<N>& ray)
+{
+    return [first = corners + s.first, &ray](uint32_t i) { return first[i] - ray.origin; };
+}
+
+template <class N>
+constexpr bool encloses(const Polygon<N>& s, const Corners<N>& corners, const Ray<N>& ray)
+{
+    return encloses<N>(s.count, corners_from(s, corners.points, ray), ray.direction);
+}
+
+// t in (0, limit], or false. The polygon that the ray starts on does not count.
+template <bool Enclosed, class N>
 constexpr bool meets(const Polygon<N>& s, const Point<N>* corners, const Ray<N>& ray, typename N::Length limit,
                      typename N::Length& t)
 {
     if (ray.from == s.tag)
         return false;
-    const Point<N>* first = corners + s.first;
-    const auto corner = [first, &ray](uint32_t i) { return first[i] - ray.origin; };
-    return intersect_corners<N>(s.normal, s.count, corner, ray, limit, t);
+    return intersect_corners<Enclosed, N>(s.normal, s.count, corners_from(s, corners, ray), ray, limit, t);
 }
 
-template <bool Near = false, class N>
-QRAY_INLINE constexpr bool intersect(const Polygon<N>& s, const Corners<N>& corners, const Ray<N>& ray,
-                                     typename N::Length limit, typename N::Length& t, Local<N>&)
+template <bool Near = false, class N, class C>
+QRAY_INLINE constexpr bool intersect(const Polygon<N>& s, const C& corners, const Ray<N>& ray, typename N::Length limit,
+                                     typename N::Length& t, Local<N>&)
 {
-    return meets(s, corners.points, ray, limit, t);
+    return meets<C::enclose>(s, corners.points, ray, limit, t);
 }
 
 // How often the ray crosses it strictly between its origin and a light at `distance`: 0 or 1.
-template <bool Near = false, class N>
-QRAY_INLINE constexpr int crossings(const Polygon<N>& s, const Corners<N>& corners, const Ray<N>& ray,
-                                    typename N::Length distance)
+template <bool Near = false, class N, class C>
+QRAY_INLINE constexpr int crossings(const Polygon<N>& s, const C& corners, const Ray<N>& ray, typename N::Length distance)
 {
     typename N::Length t{};
-    return meets(s, corners.points, ray, distance, t) && before_light<N>(s.normal, ray, t, distance);
+    return meets<C::enclose>(s, corners.points, ray, distance, t) && before_light<N>(s.normal, ray, t, distance);
 }
 
 template <class N>

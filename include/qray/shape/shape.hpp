@@ -19,8 +19,15 @@ namespace qray {
 // The scene's corners, and the shading normals there; null where no shape has such.
 template <class N>
 struct Corners {
+    static constexpr bool enclose = false;
     const Point<N>* points;
     const Direction<N>* normals;
+};
+
+// The same where the ray is known to pass inside of a shape's outline.
+template <class N>
+struct EnclosingCorners : Corners<N> {
+    static constexpr bool enclose = true;
 };
 
 template <class N>

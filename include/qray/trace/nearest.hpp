@@ -52,14 +52,31 @@ QRAY_INLINE constexpr bool with_shape(const Scene<N, E>& scene, Kind kind, uint3
     return false;
 }
 
+// The corners of those shapes that for_each_candidate() names.
+template <class N, Effects E>
+QRAY_INLINE constexpr auto candidates_corners(const Scene<N, E>& scene)
+{
+    if constexpr (E.tree && has_outlines<N>)
+        return EnclosingCorners<N>{corners_of(scene)};
+    else
+        return corners_of(scene);
+}
+
 // Calls f(shape, kind, index) for every shape that the ray may meet before limit(), until it returns true.
 template <bool NearestFirst = false, class N, Effects E, class Limit, class F>
 QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_unused]] const Ray<N>& ray,
                                               [[maybe_unused]] Limit limit, F f)
 {
     if constexpr (E.tree) {
-        walk<NearestFirst>(scene.tree.value, ray, limit, [&](auto id) QRAY_INLINE_LAMBDA {
-            return with_shape(scene, id.kind(), id.index(), f);
+        walk<NearestFirst, E.corners()>(scene.tree.value, ray, limit, [&](auto id, [[maybe_unused]] bool open)
+                                                                          QRAY_INLINE_LAMBDA {
+            return with_shape(scene, id.kind(), id.index(), [&](const auto& shape, Kind kind, uint32_t index)
+                                                                QRAY_INLINE_LAMBDA {
+                if constexpr (requires { encloses(shape, corners_of(scene), ray); })
+                    if (open && !encloses(shape, corners_of(scene), ray))
+                        return false;
+                return f(shape, kind, index);
+            });
         });
     } else {
         const RejectRay<N> reject(ray);
@@ -79,7 +96,7 @@ template <class N, Effects E, class S>
 QRAY_INLINE constexpr int crossings_before(const Scene<N, E>& scene, const S& shape, const Ray<N>& ray,
                                            typename N::Length distance)
 {
-    return crossings<!E.tree>(shape, corners_of(scene), ray, distance);
+    return crossings<!E.tree>(shape, candidates_corners(scene), ray, distance);
 }
 template <class N, Effects E, class S>
 constexpr int crossings_before(const Scene<N, E>& scene, const S& shape, const Ray<N>& ray, typename N::Length distance,
@@ -104,7 +121,7 @@ QRAY_INLINE constexpr void keep_nearest(const Scene<N, E>& scene, const Ray<N>& 
 {
     typename N::Length t{};
     Local<N> local{};
-    if (intersect<!E.tree>(shape, corners_of(scene), ray, hit.t, t, local) && hit.is_behind(t, shape.tag)) {
+    if (intersect<!E.tree>(shape, candidates_corners(scene), ray, hit.t, t, local) && hit.is_behind(t, shape.tag)) {
         hit.t = t;
         hit.tag = shape.tag;
         hit.kind = kind;

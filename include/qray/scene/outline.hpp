@@ -1,0 +1,104 @@
+// The outlines of polygons and patches, as many edges at once as a register has numbers: which edges cross the half-line of
+// shape/corners.hpp. For float and q32 on desktops, where the tree asks it before the shape, which then need not.
+//
+// Float does what crosses() does, edge by edge. In q32, whose answer is that of exact arithmetic, binary32 tells where it
+// can, in ulp of a length and with u = 2^-24: differences v of corners and origin are exact and less than 2^31; a sheared
+// v_x d_z - v_z d_x is off by less than 2 (2^31 3 u) + 2^32 u = 1024, so that where it is beyond `apart` its sign is known;
+// and with s the sum of the four magnitudes an edge's a_x b_y - b_x a_y by less than 1024 s + 2 1024^2 + 512 s.
+#pragma once
+
+#include "../number/lanes.hpp"
+#include "../shape/corners.hpp"
+
+namespace qray {
+
+// For these, a scene with a tree has them.
+template <class N>
+inline constexpr bool has_outlines = WideFixed<N> || (!N::is_fixed && sizeof(typename N::Length) == 4);
+
+template <bool IsFixed>
+struct OutlineRow {
+    using Type = Bounds;
+};
+template <>
+struct OutlineRow<true> {
+    using Type = BoundMask;
+};
+
+// x, y, z of where edges begin, then of where they end.
+template <class N>
+struct OutlineBlock {
+    using Row = typename OutlineRow<N::is_fixed>::Type;
+    Row ends[2][3];
+};
+
+template <class N>
+class OutlineRay {
+public:
+    explicit QRAY_INLINE OutlineRay(const Ray<N>& ray)
+    {
+        const Shear<N> shear(ray.direction);
+        const Point<N>& o = ray.origin;
+        const bool first = shear.axis == 0, last = shear.axis == 2;
+        z_row = static_cast<size_t>(shear.axis);
+        x_row = last ? 0 : z_row + 1;
+        y_row = first ? 2 : z_row - 1;
+        ox = all(first ? o.y : last ? o.x : o.z);
+        oy = all(first ? o.z : last ? o.y : o.x);
+        oz = all(first ? o.x : last ? o.z : o.y);
+        dx = all_bounds(value(shear.dx));
+        dy = all_bounds(value(shear.dy));
+        dz = all_bounds(value(shear.dz));
+    }
+
+    // The edges that cross the half-line, as bits, and those of which that is not known.
+    QRAY_INLINE uint32_t crossed(const OutlineBlock<N>& block, uint32_t& unsure) const
+    {
+        Bounds ax, ay, bx, by;
+        sheared(block.ends[0], ax, ay);
+        sheared(block.ends[1], bx, by);
+        const Bounds e = ax * by - bx * ay, none{};
+        const BoundMask up = by > none, crosses = (ay > none) ^ up, left = (up & (e > none)) | (~up & (e < none));
+        if constexpr (N::is_fixed) {
+            constexpr float apart = 2048;
+            const Bounds near_a = magnitude(ay), near_b = magnitude(by);
+            const Bounds margin = (magnitude(ax) + near_a + magnitude(bx) + near_b + apart) * apart;
+            unsure = mask_bits((lower(near_a, near_b) <= apart) | (crosses & (magnitude(e) <= margin)));
+            return mask_bits(crosses & left);
+        } else {
+            const BoundMask right_a = ax > none, right_b = bx > none;
+            return mask_bits(crosses & ((right_a & right_b) | ((right_a | right_b) & left)));
+        }
+    }
+
+private:
+    using Row = typename OutlineBlock<N>::Row;
+    Row ox, oy, oz;
+    Bounds dx, dy, dz;
+    size_t x_row, y_row, z_row;
+
+    QRAY_INLINE static Bounds all(float v) { return all_bounds(v); }
+    template <int F>
+    QRAY_INLINE static BoundMask all(Fixed<F, 32> v) { return v.raw - BoundMask{}; }
+    QRAY_INLINE static float value(float v) { return v; }
+    template <int F>
+    QRAY_INLINE static float value(Fixed<F, 32> v)
+    {
+        return static_cast<float>(v.raw) * (1.0f / static_cast<float>(int64_t{1} << F));
+    }
+    QRAY_INLINE static Bounds magnitude(const Bounds& v)
+    {
+        return __builtin_bit_cast(Bounds, __builtin_bit_cast(BoundMask, v) & INT32_MAX);
+    }
+    QRAY_INLINE static Bounds number(const Bounds& v) { return v; }
+    QRAY_INLINE static Bounds number(const BoundMask& v) { return __builtin_convertvector(v, Bounds); }
+
+    QRAY_INLINE void sheared(const Row (&end)[3], Bounds& x, Bounds& y) const
+    {
+        const Bounds vx = number(end[x_row] - ox), vy = number(end[y_row] - oy), vz = number(end[z_row] - oz);
+        x = vx * dz - vz * dx;
+        y = vy * dz - vz * dy;
+    }
+};
+
+} // namespace qray
