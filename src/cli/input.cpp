@@ -24,24 +24,39 @@ bool failed(scene::Error& error, const char* path, const char* what)
     return false;
 }
 
-// Bytes read, or -1 and errno. `expected` is how many there should be, and may be wrong.
-ptrdiff_t read_all(int file, size_t expected, scene::Room& text)
+// Appends a file to `to`, or its first `most` + 1 bytes. Closes it; 0, or what errno would be.
+int read_all(int file, size_t most, scene::Bytes& to, struct stat& found)
 {
-    constexpr size_t most = scene::Limits::text + 1; // one more, to see that a file is too long
-    size_t size = 0;
-    while (size < most) {
-        if (size == text.size && !grow_room(text, std::min(size == 0 ? expected + 1 : 2 * size, most))) {
-            errno = ENOMEM;
-            return -1;
-        }
-        const ssize_t got = read(file, text.at + size, text.size - size);
+    if (file < 0)
+        return errno;
+    int wrong = fstat(file, &found) == 0 && S_ISDIR(found.st_mode) ? EISDIR : 0;
+    size_t expected = S_ISREG(found.st_mode) ? static_cast<size_t>(found.st_size) + 1 : 65536; // may be wrong
+    for (const size_t end = to.size + most + 1; wrong == 0 && to.size < end; expected = to.size) {
+        if (to.size == to.room.size && !grow_room(to.room, std::min(to.size + expected, end)))
+            wrong = ENOMEM;
+        const ssize_t got = wrong == 0 ? read(file, to.room.at + to.size, std::min(to.room.size, end) - to.size) : 0;
         if (got == 0)
             break;
         if (got < 0 && errno != EINTR)
-            return -1;
-        size += got > 0 ? static_cast<size_t>(got) : 0;
+            wrong = errno;
+        to.size += got > 0 ? static_cast<size_t>(got) : 0;
     }
-    return static_cast<ptrdiff_t>(size);
+    if (file != STDIN_FILENO)
+        close(file);
+    return wrong;
+}
+
+const char* read_beside(const char* scene, std::string_view name, size_t most, scene::Bytes& to)
+{
+    char path[4096];
+    const char* const slash = name.starts_with('/') ? nullptr : strrchr(scene, '/');
+    const size_t folder = slash == nullptr ? 0 : static_cast<size_t>(slash + 1 - scene);
+    if (folder + name.size() >= sizeof path)
+        return strerror(ENAMETOOLONG);
+    snprintf(path, sizeof path, "%.*s%.*s", static_cast<int>(folder), scene, static_cast<int>(name.size()), name.data());
+    struct stat found;
+    const int wrong = read_all(open(path, O_RDONLY | O_CLOEXEC), most, to, found);
+    return wrong == 0 ? nullptr : strerror(wrong);
 }
 
 } // namespace
@@ -50,31 +65,23 @@ bool read_scene(const char* path, scene::Description& description, scene::Error&
 {
     const bool standard = strcmp(path, "-") == 0;
     const int file = standard ? STDIN_FILENO : open(path, O_RDONLY | O_CLOEXEC);
-    if (file < 0)
-        return failed(error, path, "open");
-    if (fstat(file, &scene_file) == 0 && S_ISDIR(scene_file.st_mode)) {
-        errno = EISDIR;
-        return failed(error, path, "open");
-    }
-    const size_t expected = S_ISREG(scene_file.st_mode) ? static_cast<size_t>(scene_file.st_size) : 65535;
-    scene::Room text;
-    const ptrdiff_t size = read_all(file, expected, text);
-    if (size < 0)
-        return failed(error, path, "read");
-    if (!standard)
-        close(file);
-    if (size > ptrdiff_t{scene::Limits::text}) {
+    scene::Bytes text;
+    errno = read_all(file, scene::Limits::text, text, scene_file);
+    if (errno != 0)
+        return failed(error, path, file < 0 || errno == EISDIR ? "open" : "read");
+    if (text.size > scene::Limits::text) {
         snprintf(error.text, sizeof error.text, "%s:1:1: a text of more than %u bytes (limit 'text')",
                  scene::ShownName(path).text, scene::Limits::text);
         return false;
     }
-    const size_t bytes = static_cast<size_t>(size);
-    if (!make_room(description.room, description.lay_out(bytes))) {
+    if (!make_room(description.room, description.lay_out(text.size))) {
         errno = ENOMEM;
         return failed(error, path, "read");
     }
-    const bool good = scene::parse(path, reinterpret_cast<const char*>(text.at), bytes, description, error);
-    give_back(text);
+    constexpr scene::Files files{read_beside, grow_room};
+    const bool good =
+        scene::parse(path, reinterpret_cast<const char*>(text.room.at), text.size, description, error, &files);
+    give_back(text.room);
     return good;
 }
 

@@ -109,8 +109,8 @@ void add_to_hash(uint64_t& hash, const T& v)
 
 class Parser : public Reader {
 public:
-    Parser(const char* scene, const char* from, size_t bytes, Description& into, Error& to)
-        : Reader(scene, from, bytes, to), text(from, bytes), out(into)
+    Parser(const char* scene, const char* from, size_t bytes, Description& into, Error& to, const Files* beside)
+        : Reader(scene, from, bytes, to), text(from, bytes), out(into), files(beside)
     {
     }
 
@@ -140,6 +140,7 @@ public:
 private:
     const std::string_view text;
     Description& out;
+    const Files* const files;
     Token entity;                            // being read
     uint32_t view_line = 0, object_line = 0; // of the view, of the first object; 0 before it
     Fill current;
@@ -197,6 +198,23 @@ private:
             }
         });
         return found ? good : unknown_entity();
+    }
+
+    // The file whose name follows, behind what `to` holds: `contents`, until `to` grows again.
+    bool file(const char* what, size_t most, Bytes& to, std::string_view& contents)
+    {
+        token = lexer.next();
+        if (token.kind == TokenKind::end || token.kind == TokenKind::bad)
+            return expected("", what);
+        const size_t before = to.size;
+        const char* const wrong = files != nullptr ? files->append(scene_name(), token.text, most, to) : "the scene is not in a folder";
+        if (wrong != nullptr)
+            return fail(token.at, "cannot read '%s': %s; expected %s", Shown(token.text).text, wrong, what);
+        if (to.size - before > most)
+            return fail(token.at, "'%s' has more than %zu bytes; expected %s that is shorter",
+                        Shown(token.text).text, most, what);
+        contents = {reinterpret_cast<const char*>(to.room.at) + before, to.size - before};
+        return true;
     }
 
     // The view and the lights.
@@ -453,13 +471,13 @@ private:
 
 } // namespace
 
-bool parse(const char* name, const char* text, size_t size, Description& out, Error& error)
+bool parse(const char* name, const char* text, size_t size, Description& out, Error& error, const Files* files)
 {
     const Room room = out.room;
     out = {};
     out.room = room;
     error.text[0] = 0;
-    return Parser(name, text, size, out, error).parse();
+    return Parser(name, text, size, out, error, files).parse();
 }
 
 } // namespace qray::scene

@@ -63,6 +63,8 @@ public:
     [[gnu::format(printf, 3, 4)]] bool fail(Position at, const char* format, ...);
     bool expected(const char* part, const char* what); // the latest token is not what should stand here
 
+    const char* scene_name() const { return name; }
+
     Lexer lexer;
     Token token;        // the latest
     Position vector_at; // where the latest point or direction began
