@@ -450,8 +450,8 @@ class Scenes(Cli):
                 self.assertEqual(self.run_qray("-q", "bad.nff")[0], 0)
 
     def test_text_limit(self):
-        for size, message in ((64 << 20, "bad.nff:1:1: found the byte 0x00"),
-                              ((64 << 20) + 1, r"bad.nff:1:1: a text of more than 67108864 bytes \(limit 'text'\)")):
+        for size, message in ((256 << 20, "bad.nff:1:1: found the byte 0x00"),
+                              ((256 << 20) + 1, r"bad.nff:1:1: a text of more than 268435456 bytes \(limit 'text'\)")):
             self.write("bad.nff", b"")
             os.truncate("bad.nff", size)
             self.fails(1, message, "bad.nff")

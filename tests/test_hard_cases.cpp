@@ -567,10 +567,10 @@ TEST(HardInput, MoreObjectsThanFitAreAnErrorThatNamesTheLimit)
     for (uint32_t i = 0; i <= scene::Limits::objects; i++)
         text += "s 0 0 0 1\n";
     const std::string message = error_of(text).text;
-    EXPECT_NE(message.find("262144"), std::string::npos) << message;
+    EXPECT_NE(message.find("1048576"), std::string::npos) << message;
     EXPECT_NE(message.find("objects"), std::string::npos) << message;
-    text = camera("0 1 0", "45", "9 9") + "p 1048577 0 0 0";
-    EXPECT_NE(std::string(error_of(text).text).find("1048576"), std::string::npos);
+    text = camera("0 1 0", "45", "9 9") + "p 3145729 0 0 0";
+    EXPECT_NE(std::string(error_of(text).text).find("3145728"), std::string::npos);
 }
 
 } // namespace

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,10 +19,34 @@ using qray::TextureKind;
 Description& scene = qray::test::kept<Description>();
 Error error;
 
+// Files beside the scene, and rooms of just the size that is asked for.
+std::map<std::string, std::string> beside;
+bool grow(Room& room, size_t size) {
+    if (size <= room.size)
+        return true;
+    auto* const larger = static_cast<uint8_t*>(std::aligned_alloc(Layout::alignment, (size + 63) / 64 * 64));
+    if (room.at != nullptr)
+        std::memcpy(larger, room.at, room.size);
+    std::free(room.at);
+    room = {larger, size};
+    return true;
+}
+const char* append(const char* path, size_t most, Bytes& to) {
+    const auto found = beside.find(path);
+    if (found == beside.end())
+        return "there is none";
+    const std::string text = found->second.substr(0, most + 1);
+    grow(to.room, to.size + text.size());
+    std::memcpy(to.room.at + to.size, text.data(), text.size());
+    to.size += text.size();
+    return nullptr;
+}
+constexpr Files files{append, grow};
+
 // The copy has exactly the text's size, so that a sanitizer sees the parser read beyond it.
 bool parsed(const std::string& text, const char* name = "scene.nff") {
     const std::vector<char> copy(text.begin(), text.end());
-    return parse(name, copy.data(), copy.size(), scene, error);
+    return parse(name, copy.data(), copy.size(), scene, error, &files);
 }
 
 #define ASSERT_PARSES(scene_text) ASSERT_TRUE(parsed(scene_text)) << error.text
@@ -881,43 +908,184 @@ TEST(Parser, RoomIsEnough) {
     }
 }
 
+// Meshes.
+
+TEST(ParserMesh, Forms) {
+    beside = {{"a.obj", "# a square, in all forms\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nvn 0 0 2\nvn 1 0 1\nvt 0 0\n"
+                        "f 1 2 3 4\nf -4/1 2/1/1 -2 \\\n 4//1\nf 1//1 2/7/1 3//2 -1//-2\n\r\nusemtl x \xc3\xb6 f\nf 4 4 1\nf 1 3 3\n"}};
+    ASSERT_PARSES(view + "material s 5 0 0 1 mesh a.obj s 6 0 0 1 material colour 1 0 0 mesh a.obj 2 10 20 30.5 s 7 0 0 1");
+    ASSERT_EQ(scene.object_count, 3u + 2 * 5);
+    EXPECT_EQ(scene.dropped, 4u);
+    EXPECT_EQ(scene.fill_count, 2u);
+    for (uint32_t i : {1u, 2u, 3u, 4u}) {
+        EXPECT_EQ(scene.objects[i].kind, Kind::polygon);
+        EXPECT_EQ(scene.objects[i].count, 3u);
+        const Vec3d* v = scene.vertices + scene.objects[i].vertex;
+        expect_vector(v[0], 0, 0, 0);
+        expect_vector(v[1], 1, i % 2 == 0, 0);
+        expect_vector(v[2], i % 2, 1, 0);
+    }
+    for (uint32_t i : {5u, 11u}) {
+        const Object& o = scene.objects[i];
+        EXPECT_EQ(o.kind, Kind::patch);
+        EXPECT_EQ(o.line, 2u);
+        EXPECT_EQ(o.fill, i / 7);
+        ASSERT_EQ(o.count, 4u);
+        for (uint32_t k : {0u, 1u, 3u})
+            expect_vector(scene.normals[o.vertex + k], 0, 0, 2);
+        expect_vector(scene.normals[o.vertex + 2], 1, 0, 1);
+    }
+    const uint32_t scaled = scene.objects[11].vertex;
+    expect_vector(scene.vertices[scaled], 10, 20, 30.5);
+    expect_vector(scene.vertices[scaled + 2], 12, 22, 30.5);
+    expect_vector(scene.objects[12].a, 7, 0, 0);
+    EXPECT_EQ(scene.passed_over.count, 2u);
+    EXPECT_STREQ(scene.passed_over.text, "passed over in 'a.obj': 3 lines, the first 'v' in line 3");
+}
+
+// What is found where, and that a scene's tables grow with what they hold.
+TEST(ParserMesh, IsBesideTheScene) {
+    std::string mesh = "v 0 0 0 v\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < 500; i++)
+        mesh += "f 1 2 3\n";
+    beside = {{"x/a.obj", mesh}, {"/b/a.obj", mesh}};
+    const std::string text = view + "s 1 2 3 4 mesh a.obj pp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1 mesh /b/a.obj mesh a.obj s 5 6 7 8";
+    Description small;
+    grow(small.room, small.lay_out(text.size()));
+    ASSERT_TRUE(parse("x/y.nff", text.data(), text.size(), small, error, &files)) << error.text;
+    ASSERT_EQ(small.object_count, 1503u);
+    expect_vector(small.objects[0].a, 1, 2, 3);
+    expect_vector(small.objects[1502].a, 5, 6, 7);
+    for (uint32_t i = 1; i < 1502; i++) {
+        ASSERT_EQ(small.objects[i].kind, i == 501 ? Kind::patch : Kind::polygon);
+        const uint32_t v = small.objects[i].vertex;
+        ASSERT_EQ(v, 3 * (i - 1));
+        expect_vector(small.vertices[v + 1], 1, 0, 0);
+    }
+    expect_vector(small.normals[1500], 0, 0, 1);
+    std::free(small.room.at);
+    std::free(small.files.room.at);
+    EXPECT_FALSE(parsed(text));
+    EXPECT_STREQ(error.text, "scene.nff:2:16: cannot read 'a.obj': there is none; expected a Wavefront OBJ file");
+    EXPECT_FALSE(parsed(view + "mesh " + std::string(5000, 'x')));
+    EXPECT_NE(std::string(error.text).find("': the name is too long; expected"), std::string::npos) << error.text;
+    EXPECT_FALSE(parse("a", text.data(), text.size(), scene, error));
+    EXPECT_STREQ(error.text, "a:2:16: cannot read 'a.obj': the scene has no folder; expected a Wavefront OBJ file");
+}
+
+// @ stands where the fault is.
+TEST(ParserMesh, ErrorsNameTheLineOfTheMesh) {
+    const struct {
+        std::string mesh;
+        const char* message;
+    } cases[] = {
+        {"@", "the file ends where 'f' and a face was expected"},
+        {"v 0 0 0\nvn 0 0 1\n@", "the file ends where 'f' and a face was expected"},
+        {"v 0 0 @", "the file ends where z of a vertex was expected"},
+        {"v 0 0 @\xff", "found the byte 0xff"},
+        {"v 0 0 0\n@\xffo", "found the byte 0xff"},
+        {"v 1 2\n@vn 1 2 3", "expected z of a vertex, found 'vn', which is not a number"},
+        {"v 1 @nan 0", "expected y of a vertex, found 'nan'"},
+        {"v 1 @1e16 0", "y of a vertex is 1e16; expected a number from -1e15 to 1e15"},
+        {"vn @0 0 0", "a normal is zero; expected a vector with a direction"},
+        {"@3 1 2 3", "expected a word such as 'v' or 'f', found '3'"},
+        {"v 0 0 0\n@f 1 1\nf 1 1 1", "a face of 2 corners; expected at least 3"},
+        {"@f", "a face of 0 corners; expected at least 3"},
+        {"v 0 0 0\nf 1 @2 1", "'2' names vertex 2; expected one of the 1 before it"},
+        {"v 0 0 0\nf 1 1 @0//1", "'0//1' names vertex 0; expected one of the 1 before it"},
+        {"v 0 0 0\nf 1 1 @-2", "'-2' names vertex -2; expected"},
+        {"v 0 0 0\nf @1//1 1 1", "'1//1' names normal 1; expected one of the 0 before it"},
+        {"v 0 0 0\nf 1 @1/ 1", "expected a corner such as 3, 3/1, 3//2 or 3/1/2, found '1/'"},
+        {"v 0 0 0\nf 1 @1/1/1/1 1", "expected a corner"},
+        {"v 0 0 0\nf 1 @1// 1", "expected a corner"},
+        {"v 0 0 0\nf 1 @1.5 1", "expected a corner"},
+        {"v 0 0 0\nf 1 @99999999999999999999 1", "expected a corner"},
+        {"v 0 0 0\nf 1 1 @\xfe", "found the byte 0xfe"},
+        {"v 0 1e14 0\nf @1 1 1", "the scaled vertex has a coordinate of 2e+15; expected a number from -1e15 to 1e15"},
+    };
+    for (const auto& [marked, message] : cases) {
+        SCOPED_TRACE(marked);
+        const size_t at = marked.find('@'), start = marked.rfind('\n', at) + 1;
+        const auto lines = std::count(marked.begin(), marked.begin() + static_cast<ptrdiff_t>(at), '\n');
+        beside["bad.obj"] = marked.substr(0, at) + marked.substr(at + 1);
+        ASSERT_FALSE(parsed(view + "mesh bad.obj 20 0 0 0"));
+        const std::string where = "bad.obj:" + std::to_string(lines + 1) + ":" + std::to_string(at - start + 1) + ": ", text = error.text;
+        EXPECT_EQ(text.substr(0, where.size()), where) << text;
+        EXPECT_NE(text.find(message), std::string::npos) << text;
+    }
+    beside["a.obj"] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3";
+    const std::pair<std::string, const char*> scenes[] = {
+        {view + "mesh@", "the file ends where a Wavefront OBJ file was expected"},
+        {view + "mesh a.obj @0 0 0 0", "the scale of a mesh is 0; expected a number above 0"},
+        {view + "mesh a.obj 1 2 @s", "expected y of the place of a mesh, found 's'"},
+        {view + "mesh a.obj 1 2 3 4 @5", "the 'mesh' in line 2 is complete without it"},
+        {"@mesh a.obj", "an object before the view"},
+        {view + "mesh a.obj @l 0 0 0", "a light after the first object, which is in line 2"},
+    };
+    for (const auto& [marked, message] : scenes)
+        expect_error(marked, message);
+}
+
+// A damaged file is read no farther than it goes, and gets one line.
+TEST(ParserMesh, SurvivesBrokenFiles) {
+    const std::string whole = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 2\nf 1//1 2//1 3/4/1\nf 1 2 3 -1\n";
+    const char alphabet[] = " \n\r#0123456789+-./\\eEfvn\x80";
+    uint32_t state = 1, good = 0;
+    const auto random = [&state](size_t below) {
+        state = state * 1664525 + 1013904223;
+        return (state >> 8) % static_cast<uint32_t>(below);
+    };
+    for (int i = 0; i < 5000; i++) {
+        std::string text = whole;
+        for (uint32_t n = random(4); n-- > 0;)
+            text[random(text.size())] = alphabet[random(sizeof alphabet - 1)];
+        beside["bad.obj"] = text.substr(0, random(3) == 0 ? random(text.size()) : text.size());
+        if (parsed(view + "mesh bad.obj"))
+            good++;
+        else
+            EXPECT_TRUE(std::string(error.text).starts_with("bad.obj:")) << error.text;
+    }
+    EXPECT_GT(good, 1000u);
+    EXPECT_LT(good, 4000u);
+}
+
 TEST(ParserLimit, Objects) {
     std::string text = view;
-    for (int i = 0; i < 262'144; ++i)
+    for (int i = 0; i < 1'048'576; ++i)
         text += "s 0 0 0 1\n";
     text += "s 0 0 0 0 "; // without extent, so it takes no room
     ASSERT_PARSES(text);
-    EXPECT_EQ(scene.object_count, 262'144u);
+    EXPECT_EQ(scene.object_count, 1'048'576u);
     EXPECT_EQ(scene.dropped, 1u);
-    expect_error(text + "@s 0 0 0 1", "too many objects; expected at most 262144 (limit 'objects')");
+    expect_error(text + "@s 0 0 0 1", "too many objects; expected at most 1048576 (limit 'objects')");
 }
 
 TEST(ParserLimit, Vertices) {
     expect_error(
-        view + "p @1048577 0 0 0",
-        "1048577 vertices are too many after the 0 so far; expected at most 1048576 (limit 'vertices')");
+        view + "p @3145729 0 0 0",
+        "3145729 vertices are too many after the 0 so far; expected at most 3145728 (limit 'vertices')");
     expect_error(
-        view + "p 3 0 0 0 1 0 0 0 1 0 pp @1048574",
-        "1048574 vertices are too many after the 3 so far; expected at most 1048576 (limit 'vertices')");
+        view + "p 3 0 0 0 1 0 0 0 1 0 pp @3145726",
+        "3145726 vertices are too many after the 3 so far; expected at most 3145728 (limit 'vertices')");
     expect_error(view + "p @99999999999999999999", "99999999999999999999 vertices are too many");
     expect_error(view + "p @4294967295", "4294967295 vertices are too many");
 
-    std::string text = view + "p 1048576 1 0 0 0 1 0";
-    for (int i = 2; i < 1'048'576; ++i)
+    std::string text = view + "p 3145728 1 0 0 0 1 0";
+    for (int i = 2; i < 3'145'728; ++i)
         text += " 0 0 0";
     ASSERT_PARSES(text);
-    EXPECT_EQ(scene.vertex_count, 1'048'576u);
-    expect_error(text + "\np @3", "3 vertices are too many after the 1048576 so far");
+    EXPECT_EQ(scene.vertex_count, 3'145'728u);
+    expect_error(text + "\np @3", "3 vertices are too many after the 3145728 so far");
 }
 
 TEST(ParserLimit, Text) {
     std::string text = view;
-    text.resize(size_t{64} << 20, ' ');
+    text.resize(size_t{256} << 20, ' ');
     ASSERT_PARSES(text);
     text += ' ';
     EXPECT_FALSE(parsed(text));
     EXPECT_STREQ(error.text,
-                 "scene.nff:1:1: a text of 67108865 bytes; expected at most 67108864 (limit 'text')");
+                 "scene.nff:1:1: a text of 268435457 bytes; expected at most 268435456 (limit 'text')");
 }
 
 // No text, however broken, is read beyond its end, and each gives a scene in range or one line of text.

@@ -46,14 +46,8 @@ int read_all(int file, size_t most, scene::Bytes& to, struct stat& found)
     return wrong;
 }
 
-const char* read_beside(const char* scene, std::string_view name, size_t most, scene::Bytes& to)
+const char* append_file(const char* path, size_t most, scene::Bytes& to)
 {
-    char path[4096];
-    const char* const slash = name.starts_with('/') ? nullptr : strrchr(scene, '/');
-    const size_t folder = slash == nullptr ? 0 : static_cast<size_t>(slash + 1 - scene);
-    if (folder + name.size() >= sizeof path)
-        return strerror(ENAMETOOLONG);
-    snprintf(path, sizeof path, "%.*s%.*s", static_cast<int>(folder), scene, static_cast<int>(name.size()), name.data());
     struct stat found;
     const int wrong = read_all(open(path, O_RDONLY | O_CLOEXEC), most, to, found);
     return wrong == 0 ? nullptr : strerror(wrong);
@@ -78,10 +72,11 @@ bool read_scene(const char* path, scene::Description& description, scene::Error&
         errno = ENOMEM;
         return failed(error, path, "read");
     }
-    constexpr scene::Files files{read_beside, grow_room};
+    constexpr scene::Files files{append_file, grow_room};
     const bool good =
         scene::parse(path, reinterpret_cast<const char*>(text.room.at), text.size, description, error, &files);
     give_back(text.room);
+    give_back(description.files.room);
     return good;
 }
 

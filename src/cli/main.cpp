@@ -71,7 +71,8 @@ int load(const Options& options, const Renderer& renderer, const char* out, Buil
         return 1;
     }
     if (!options.quiet)
-        for (const scene::Warning* w : {&description.clamped, &description.empty, &description.nonplanar, &built.lost})
+        for (const scene::Warning* w : {&description.passed_over, &description.clamped, &description.empty, &description.nonplanar,
+                                       &built.lost})
             warn(options.scene, *w);
     return go_on;
 }

@@ -107,18 +107,19 @@ private:
     const Settings& settings;
     Resolution<N> resolution{d, frame, s.lost};
 
-    // A tag has room for so many places, but for the one that names no surface.
+    // A tag has room for so many places, but for the last of the last material, which names no surface.
     bool few_enough(Error& error) const
     {
         uint64_t surfaces = 0;
         for (uint32_t i = 0; i < d.object_count; i++)
             surfaces += surfaces_of(d.objects[i]);
-        if (surfaces <= Limits::surfaces)
+        const uint32_t most = Limits::surfaces - (d.fill_count == Limits::materials);
+        if (surfaces <= most)
             return true;
         snprintf(error.text, sizeof error.text,
                  "the scene has %llu surfaces (a patch of n corners counts as n - 2), "
                  "more than the limit of %u surfaces",
-                 static_cast<unsigned long long>(surfaces), Limits::surfaces);
+                 static_cast<unsigned long long>(surfaces), most);
         return false;
     }
 

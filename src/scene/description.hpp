@@ -12,6 +12,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 
 #include <qray/scene/lists.hpp>
 
@@ -23,13 +24,13 @@
 namespace qray::scene {
 
 struct Limits {
-    static constexpr uint32_t objects = 262'144;    // entities after parsing (a patch is one)
-    static constexpr uint32_t vertices = 1'048'576; // corners of all polygons and patches
-    static constexpr uint32_t surfaces = 1'048'575; // after building: a patch of n corners has n - 2
+    static constexpr uint32_t objects = 1'048'576;  // entities after parsing (a patch is one)
+    static constexpr uint32_t vertices = 3'145'728; // corners of all polygons and patches
+    static constexpr uint32_t surfaces = 1'048'576; // after building: a patch of n corners has n - 2; see Tag
     static constexpr uint32_t materials = 4'096;    // distinct fills
     static constexpr uint32_t lights = 64;
     static constexpr uint32_t resolution = 32'768;  // pixels along either edge
-    static constexpr uint32_t text = 64u << 20;     // bytes of scene text
+    static constexpr uint32_t text = 256u << 20;    // bytes of scene text, and of a mesh's file
     static constexpr double narrow_radius = 256;      // of a scene, least, in steps of q16
     static constexpr double narrow_cell = 1.0 / 4096; // of a texture, likewise
 };
@@ -111,19 +112,24 @@ struct Description {
     uint32_t dropped = 0; // objects and triangles of patches without extent, left out
     Warning empty{};      // of these, what has a radius of 0
     Warning nonplanar{};  // polygons of which a corner is off the plane by more than 1 % of their size
+    Warning passed_over{}; // meshes of which files say more than their faces
     Warning clamped{};    // numbers of `f` outside of their ranges
     char comment[256] = {}; // the first comment that says something, without its '#'; else empty
-    Room room; // the caller's, for what follows
+    Bytes files; // that the scene names, while they are read; the room is the caller's
+    Room room;   // the caller's, for what follows
     Object* objects = nullptr;
     Vec3d* vertices = nullptr;
     Vec3d* normals = nullptr; // patches only, at the corner's index, as given
     Fill* fills = nullptr;
     LightSource lights[Limits::lights];
+    uint32_t most_objects = 0, most_vertices = 0; // as many as the arrays hold
 
     // Cuts arrays for so many, and as many fills as objects, from the room where it is large enough; returns how many
     // bytes it must have.
-    size_t lay_out(uint32_t most_objects, uint32_t most_vertices)
+    size_t lay_out(uint32_t of_objects, uint32_t of_vertices)
     {
+        most_objects = of_objects;
+        most_vertices = of_vertices;
         return lay_out_in(room, [&](Layout& layout) {
             objects = layout.array<Object>(most_objects);
             vertices = layout.array<Vec3d>(most_vertices);
@@ -136,6 +142,29 @@ struct Description {
     {
         const auto most = [](size_t n, uint32_t limit) { return n < limit ? static_cast<uint32_t>(n) : limit; };
         return lay_out(most(text / 10 + 1, Limits::objects), most(text / 6 + 1, Limits::vertices));
+    }
+    // Makes room for so many in all, up to the limits; what is there moves. False where there is no more memory.
+    bool grow(uint64_t least_objects, uint64_t least_vertices, bool (*grow_room)(Room&, size_t))
+    {
+        if (least_objects <= most_objects && least_vertices <= most_vertices)
+            return true;
+        const auto more = [](uint64_t least, uint32_t now, uint32_t limit) {
+            return static_cast<uint32_t>(fmin(limit, fmax(static_cast<double>(least), 1.5 * now)));
+        };
+        const uint32_t of_objects = more(least_objects, most_objects, Limits::objects);
+        const uint32_t of_vertices = more(least_vertices, most_vertices, Limits::vertices);
+        Description larger{};
+        if (!grow_room(room, larger.lay_out(of_objects, of_vertices)))
+            return false;
+        lay_out(most_objects, most_vertices);
+        larger.room = room;
+        larger.lay_out(of_objects, of_vertices);
+        // From the last to the first, each to a higher place.
+        memmove(larger.fills, fills, fill_count * sizeof *fills);
+        memmove(larger.normals, normals, vertex_count * sizeof *normals);
+        memmove(larger.vertices, vertices, vertex_count * sizeof *vertices);
+        lay_out(of_objects, of_vertices);
+        return true;
     }
 };
 

@@ -1,8 +1,6 @@
 // Files that a scene names, as whoever has the scene's text hands them to the parser.
 #pragma once
 
-#include <string_view>
-
 #include "room.hpp"
 
 namespace qray::scene {
@@ -14,9 +12,9 @@ struct Bytes {
 };
 
 struct Files {
-    // Appends to `to` what stands in the file that the scene calls `name`, looked up beside the scene; of one that is
-    // longer, its first `most` + 1 bytes. What is there may move. Null, or what is wrong: "No such file or directory".
-    const char* (*append)(const char* scene, std::string_view name, size_t most, Bytes& to);
+    // Appends to `to` what stands in the file at `path`; of one that is longer, its first `most` + 1 bytes. What is there
+    // may move. Null, or what is wrong: "No such file or directory".
+    const char* (*append)(const char* path, size_t most, Bytes& to);
     // At least `size` bytes, with what the room holds. False where there is no more memory.
     bool (*grow)(Room& room, size_t size);
 };

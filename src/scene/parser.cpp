@@ -1,5 +1,6 @@
 // The grammar of the scene language, entity by entity, and all its checks.
 #include "members.hpp"
+#include "obj.hpp"
 #include "shapes.hpp"
 
 #include <algorithm>
@@ -149,6 +150,7 @@ private:
     // A fill's number, its index + 1, stands at its hash or, where that is taken, at the next place that was free.
     uint16_t numbers[2 * Limits::materials] = {};
     bool light_is_default[Limits::lights] = {};
+    char path[4096]; // of the latest file beside the scene
 
     // What is no object; objects are read by their hosts.
     struct Statement {
@@ -166,6 +168,7 @@ private:
             {"sun", &Parser::sun},
             {"material", &Parser::material},
             {"texture", &Parser::texture},
+            {"mesh", &Parser::mesh},
             {"shadows", &Parser::shadows},
             {"far", &Parser::far},
         };
@@ -200,14 +203,22 @@ private:
         return found ? good : unknown_entity();
     }
 
-    // The file whose name follows, behind what `to` holds: `contents`, until `to` grows again.
+    // The file whose name follows, looked up beside the scene: its `path` and, behind what `to` holds, its `contents`, until
+    // `to` grows again.
     bool file(const char* what, size_t most, Bytes& to, std::string_view& contents)
     {
         token = lexer.next();
         if (token.kind == TokenKind::end || token.kind == TokenKind::bad)
             return expected("", what);
-        const size_t before = to.size;
-        const char* const wrong = files != nullptr ? files->append(scene_name(), token.text, most, to) : "the scene is not in a folder";
+        const std::string_view scene = token.text.starts_with('/') ? "" : scene_name();
+        const size_t folder = scene.rfind('/') + 1, before = to.size; // npos + 1 is 0
+        const char* wrong = files == nullptr ? "the scene has no folder" : "the name is too long";
+        if (folder + token.text.size() < sizeof path) {
+            snprintf(path, sizeof path, "%.*s%.*s", static_cast<int>(folder), scene.data(),
+                     static_cast<int>(token.text.size()), token.text.data());
+            if (files != nullptr)
+                wrong = files->append(path, most, to);
+        }
         if (wrong != nullptr)
             return fail(token.at, "cannot read '%s': %s; expected %s", Shown(token.text).text, wrong, what);
         if (to.size - before > most)
@@ -386,19 +397,30 @@ private:
         return true;
     }
 
-    bool object(Kind kind, uint8_t number)
+    // The entity is an object, or several.
+    bool start_object(Object& o)
     {
         if (view_line == 0)
             return fail(entity.at, "an object before the view; expected 'v' first");
         if (object_line == 0)
             object_line = entity.at.line;
+        o.line = entity.at.line;
+        return true;
+    }
+
+    bool object(Kind kind, uint8_t number)
+    {
         Object o;
         o.kind = kind;
         o.entity = number;
-        o.line = entity.at.line;
         bool empty = false;
-        if (!with_host(kind, [&](auto host) { return host.entities[number].read(*this, out, o, empty); }))
-            return false;
+        return start_object(o)
+            && with_host(kind, [&](auto host) { return host.entities[number].read(*this, out, o, empty); })
+            && keep(o, empty);
+    }
+
+    bool keep(Object& o, bool empty)
+    {
         if (empty) {
             out.dropped++;
             if (o.count == 0)
@@ -410,7 +432,71 @@ private:
         if (!use_fill(o.fill))
             return false;
         out.objects[out.object_count++] = o;
-        out.vertex_count += o.count;
+        out.vertex_count = std::max(out.vertex_count, o.vertex + o.count);
+        return true;
+    }
+
+    bool mesh()
+    {
+        Object o;
+        double scale = 1;
+        Vec3d offset;
+        std::string_view contents;
+        out.files.size = 0;
+        if (!start_object(o) || !file("a Wavefront OBJ file", Limits::text, out.files, contents))
+            return false;
+        const Token named = token;
+        const bool placed = lexer.next().kind == TokenKind::number;
+        lexer.unread();
+        if (placed && !(number("the scale of a mesh", size_range, scale) && point("the place of a mesh", offset)))
+            return false;
+
+        const Obj::Size size = Obj(path, contents, error).size();
+        Vec3d *points = nullptr, *normals = nullptr;
+        const auto lay_out = [&] {
+            return lay_out_in(out.files.room, [&](Layout& layout) {
+                contents = {layout.array<char>(contents.size()), contents.size()};
+                points = layout.array<Vec3d>(size.points);
+                normals = layout.array<Vec3d>(size.normals);
+            });
+        };
+        const size_t left = static_cast<size_t>(text.end() - (token.text.data() + token.text.size()));
+        const uint64_t objects = out.object_count + size.triangles + left / 10 + 1;
+        const uint64_t vertices = out.vertex_count + 3 * size.triangles + left / 6 + 3;
+        if (!files->grow(out.files.room, lay_out()) || !out.grow(objects, vertices, files->grow))
+            return fail(named.at, "not enough memory for '%s'", Shown(named.text).text);
+        lay_out();
+
+        Obj obj(path, contents, error);
+        const auto face = [&](uint32_t n, bool smooth) {
+            o.vertex = out.vertex_count;
+            if (smooth) {
+                o.kind = Kind::patch;
+                o.count = n;
+                return keep(o, Host<Patch>::is_empty(out, o));
+            }
+            // Its corners, n at first, become those of triangles: from the last to the first, each behind what is to come.
+            o.kind = Kind::polygon;
+            o.count = 3;
+            Vec3d* const v = out.vertices + o.vertex;
+            if (3 * uint64_t{n - 2} > Limits::vertices - o.vertex)
+                return obj.too_many_vertices();
+            for (uint32_t i = n - 2; i-- > 0;) {
+                v[3 * i + 2] = v[i + 2];
+                v[3 * i + 1] = v[i + 1];
+                v[3 * i] = v[0];
+            }
+            for (uint32_t i = 0; i < n - 2; i++, o.vertex += 3)
+                if (!keep(o, !has_area(out.vertices + o.vertex, 3, false)))
+                    return false;
+            return true;
+        };
+        if (!obj.read(out, scale, offset, points, normals, face))
+            return false;
+        if (obj.passed_over != 0)
+            out.passed_over.note(named.at, "passed over in '%s': %u line%s, the first '%s' in line %u",
+                                 Shown(named.text).text, obj.passed_over, obj.passed_over == 1 ? "" : "s",
+                                 Shown(obj.first_passed.text).text, obj.first_passed.at.line);
         return true;
     }
 
@@ -473,9 +559,10 @@ private:
 
 bool parse(const char* name, const char* text, size_t size, Description& out, Error& error, const Files* files)
 {
-    const Room room = out.room;
+    const Room room = out.room, beside = out.files.room;
     out = {};
     out.room = room;
+    out.files.room = beside;
     error.text[0] = 0;
     return Parser(name, text, size, out, error, files).parse();
 }

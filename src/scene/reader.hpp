@@ -69,11 +69,13 @@ public:
     Token token;        // the latest
     Position vector_at; // where the latest point or direction began
 
+protected:
+    Error& error;
+
 private:
     template <class T>
     bool read(NumberError (*as)(std::string_view, T&), const char* what, const char* part, T& value);
 
-    Error& error;
     const char* name;
 };
 

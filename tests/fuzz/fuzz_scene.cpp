@@ -1,8 +1,9 @@
-// Any bytes: either a scene, which every number system builds and draws at 8 x 8, or one line of error.
+// Any bytes, of which those behind the first 0 are what every file beside the scene holds: either a scene, which every number system builds and draws at 8 x 8, or one line of error.
 // A libFuzzer target; with FUZZ_REPLAY defined, only the function, for the test that replays the corpus.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 
 #include <qray/picture/render.hpp>
 
@@ -49,19 +50,50 @@ void draw(const scene::Description& d, const scene::Settings& settings)
     expect(drawn == 8, "rows that are missing");
 }
 
+// What stands beside the scene, and rooms of just the size that is asked for.
+std::string_view beside;
+bool grow(scene::Room& room, size_t size)
+{
+    if (size > room.size) {
+        auto* const larger = static_cast<uint8_t*>(std::aligned_alloc(64, (size + 63) / 64 * 64));
+        if (room.size != 0)
+            std::memcpy(larger, room.at, room.size);
+        std::free(room.at);
+        room = {larger, size};
+    }
+    return true;
+}
+const char* append(const char*, size_t, scene::Bytes& to)
+{
+    if (beside.empty())
+        return "there is none";
+    grow(to.room, to.size + beside.size());
+    std::memcpy(to.room.at + to.size, beside.data(), beside.size());
+    to.size += beside.size();
+    return nullptr;
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size)
 {
     scene::Description& d = test::kept<scene::Description>();
     scene::Error error;
+    const std::string_view all(reinterpret_cast<const char*>(bytes), size);
+    if (const size_t zero = all.find('\0'); zero != all.npos) {
+        beside = all.substr(zero + 1);
+        size = zero;
+    } else {
+        beside = {};
+    }
+    constexpr scene::Files files{append, grow};
     // A copy of just that size: to read beyond its end is an error that the sanitizers see.
     char* text = static_cast<char*>(std::malloc(size + (size == 0)));
     std::memcpy(text, bytes, size);
-    const bool accepted = scene::parse("fuzz", text, size, d, error);
+    const bool accepted = scene::parse("fuzz", text, size, d, error, &files);
     std::free(text);
     if (!accepted) {
-        expect_line(error.text, "fuzz:");
+        expect_line(error.text, beside.empty() ? "fuzz:" : "");
         return 0;
     }
     // How it is drawn depends on the size of the text: depth 1 to 4, plain, on a grid or adaptively.

@@ -23,7 +23,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -303,6 +305,39 @@ bool no_area(Vec area, const std::vector<Vec>& p) {
     return length(area) <= 16 * machine_eps * far * edge;
 }
 
+// A Wavefront OBJ file, face by face: smooth ones whole, others as triangles.
+template <class Flat, class Smooth>
+void read_obj(const std::string& path, Real scale, Vec place, Flat flat, Smooth smooth) {
+    std::ifstream file(path);
+    if (!file) fail("cannot read " + path);
+    std::vector<Vec> points, normals;
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line.substr(0, line.find('#')));
+        std::string word;
+        std::vector<std::string> w;
+        while (words >> word) w.push_back(word);
+        if (w.empty()) continue;
+        auto vec = [&] {
+            auto real = [&](size_t k) { return parse_real(w.at(k).c_str(), nullptr); };
+            return Vec{real(1), real(2), real(3)};
+        };
+        if (w[0] == "v") points.push_back(scale * vec() + place);
+        if (w[0] == "vn") normals.push_back(vec());
+        if (w[0] != "f") continue;
+        std::vector<Vec> v, n;
+        auto pick = [](const std::vector<Vec>& of, int k) {
+            return of.at(k > 0 ? static_cast<size_t>(k) - 1 : of.size() - static_cast<size_t>(-k));
+        };
+        for (size_t k = 1; k < w.size(); ++k) {
+            v.push_back(pick(points, std::stoi(w[k])));
+            size_t second = w[k].find('/'), third = w[k].find('/', second + 1);
+            if (second != w[k].npos && third != w[k].npos) n.push_back(pick(normals, std::stoi(w[k].substr(third + 1))));
+        }
+        if (n.size() == v.size()) smooth(v, n);
+        else for (size_t k = 1; k + 1 < v.size(); ++k) flat({v[0], v[k], v[k + 1]});
+    }
+}
+
 void read_scene(Reader& in, Scene& s) {
     Material fill;
     bool fill_new = true;
@@ -313,6 +348,30 @@ void read_scene(Reader& in, Scene& s) {
     auto add_vertices = [&](Prim& p, std::initializer_list<Vec> v, std::initializer_list<Vec> n) {
         p.first = static_cast<int>(s.vertices.size()), p.count = static_cast<int>(v.size());
         s.vertices.insert(s.vertices.end(), v), s.normals.insert(s.normals.end(), n);
+    };
+    auto polygon = [&](const std::vector<Vec>& v) {
+        Prim p;
+        p.kind = Kind::Polygon, p.material = material(), p.a = v[0];
+        p.first = static_cast<int>(s.vertices.size()), p.count = static_cast<int>(v.size());
+        Vec area = area_vector(v), corner = cross(v[1] - v[0], v[2] - v[1]);
+        // The first three vertices may lie on a line: then the whole polygon says where its front is.
+        if (no_area(corner, {v[0], v[1], v[2]})) corner = area;
+        if (no_area(corner, v)) { ++s.dropped; return; }
+        p.g = unit(corner);
+        s.vertices.insert(s.vertices.end(), v.begin(), v.end());
+        s.normals.resize(s.vertices.size());
+        s.prims.push_back(p);
+    };
+    auto patch = [&](const std::vector<Vec>& v, const std::vector<Vec>& m) {
+        for (size_t k = 1; k + 1 < v.size(); ++k) {
+            Prim t;
+            t.kind = Kind::Triangle, t.material = material(), t.a = v[0];
+            Vec area = cross(v[k] - v[0], v[k + 1] - v[k]);
+            if (no_area(area, {v[0], v[k], v[k + 1]})) { ++s.dropped; continue; }
+            t.g = unit(area);
+            add_vertices(t, {v[0], v[k], v[k + 1]}, {m[0], m[k], m[k + 1]});
+            s.prims.push_back(t);
+        }
     };
     while (!in.done()) {
         std::string w = in.word();
@@ -378,32 +437,19 @@ void read_scene(Reader& in, Scene& s) {
             p.g = (end - p.a) / p.len, p.slope = (p.r1 - p.r0) / p.len;
             s.prims.push_back(p);
         } else if (w == "p") {
-            p.kind = Kind::Polygon;
             std::vector<Vec> v(static_cast<size_t>(in.integer()));
             for (Vec& x : v) x = in.vec();
-            p.material = material(), p.a = v[0];
-            p.first = static_cast<int>(s.vertices.size()), p.count = static_cast<int>(v.size());
-            Vec area = area_vector(v), corner = cross(v[1] - v[0], v[2] - v[1]);
-            // The first three vertices may lie on a line: then the whole polygon says where its front is.
-            if (no_area(corner, {v[0], v[1], v[2]})) corner = area;
-            if (no_area(corner, v)) { ++s.dropped; continue; }
-            p.g = unit(corner);
-            s.vertices.insert(s.vertices.end(), v.begin(), v.end());
-            s.normals.resize(s.vertices.size());
-            s.prims.push_back(p);
+            polygon(v);
         } else if (w == "pp") {
             size_t n = static_cast<size_t>(in.integer());
             std::vector<Vec> v(n), m(n);
             for (size_t k = 0; k < n; ++k) v[k] = in.vec(), m[k] = in.vec();
-            for (size_t k = 1; k + 1 < n; ++k) {
-                Prim t;
-                t.kind = Kind::Triangle, t.material = material(), t.a = v[0];
-                Vec area = cross(v[k] - v[0], v[k + 1] - v[k]);
-                if (no_area(area, {v[0], v[k], v[k + 1]})) { ++s.dropped; continue; }
-                t.g = unit(area);
-                add_vertices(t, {v[0], v[k], v[k + 1]}, {m[0], m[k], m[k + 1]});
-                s.prims.push_back(t);
-            }
+            patch(v, m);
+        } else if (w == "mesh") {
+            std::string file = in.word();
+            Real scale = in.number_next() ? in.real() : Real(1);
+            Vec place = in.number_next() ? in.vec() : Vec{};
+            read_obj(file[0] == '/' ? file : in.folder + file, scale, place, polygon, patch);
         } else if (w == "plane" || w == "disc") {
             p.kind = w == "plane" ? Kind::Plane : Kind::Disc;
             p.a = in.vec(), p.g = unit(in.vec());

@@ -11,11 +11,17 @@ struct Host<Patch> : HostOfCorners {
     {
         if (!read_corners(r, d, o, true))
             return false;
+        empty = is_empty(d, o);
+        return true;
+    }
+    // Has no triangle an area? Those that have none in one that is not empty are counted.
+    static bool is_empty(Description& d, const Object& o)
+    {
         const Vec3d* v = d.vertices + o.vertex;
-        empty = !has_area(v, o.count, true);
+        const bool empty = !has_area(v, o.count, true);
         for (uint32_t i = 1; !empty && i + 1 < o.count; i++)
             d.dropped += largest(triangle_area(v[0], v[i], v[i + 1])) == 0;
-        return true;
+        return empty;
     }
     static constexpr Entity entities[] = {{"pp", "patch", "patches", read}};
     static constexpr const char* fields = "normal; middle and radius of a ball around it; vertices: first, second; tag";
