@@ -103,8 +103,9 @@ TEST(Effects, GroupsFollowTheirFlags)
     // What is made of corners, and what has normals of its own.
     EXPECT_TRUE(only(&Effects::polygon).corners() && only(&Effects::patch).corners());
     EXPECT_FALSE(only(&Effects::sphere).corners() || only(&Effects::disc).corners() || only(&Effects::cone).corners());
-    EXPECT_TRUE(only(&Effects::patch).smooth());
-    EXPECT_FALSE(only(&Effects::polygon).smooth() || only(&Effects::sphere).smooth());
+    EXPECT_TRUE(only(&Effects::triangle).corners() && only(&Effects::smooth_triangle).corners());
+    EXPECT_TRUE(only(&Effects::patch).smooth() && only(&Effects::smooth_triangle).smooth());
+    EXPECT_FALSE(only(&Effects::polygon).smooth() || only(&Effects::triangle).smooth() || only(&Effects::sphere).smooth());
     EXPECT_TRUE(only(&Effects::mirror).spawns());
     EXPECT_TRUE(only(&Effects::transmit).spawns());
     EXPECT_TRUE(only(&Effects::see_through).transmits() && only(&Effects::transmit).transmits());
@@ -171,5 +172,9 @@ struct Smooth : Asked {
     static constexpr bool has_corners = false, is_curved = false, is_smooth = true, is_short = false;
 };
 static_assert(!ShapeIn<Smooth, q32>); // without a shading_normal()
+struct Cornered : Asked {
+    static constexpr bool has_corners = true, is_curved = false, is_smooth = false, is_short = false;
+};
+static_assert(!ShapeIn<Cornered, q32>); // without a normal_of()
 
 } // namespace forgetful

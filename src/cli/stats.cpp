@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include <iterator>
+#include <utility>
 
 namespace qray::cli {
 
@@ -85,11 +86,11 @@ int describe()
         printf("%s\"%s\"", before, e.name);
         before = ", ";
     }
-    // An object of each shape, and a place on it; each texture, and whether it has an axis.
+    // An object of each shape that the text has, and a place on it; each texture, and whether it has an axis.
     before = "],\n\"shapes\": {";
 #define QRAY_SHAPE(Type, name, table) \
-    printf("%s\"" #name "\": [\"%s\", \"%s\"]", before, scene::Host<Type>::example[0], scene::Host<Type>::example[1]); \
-    before = ",\n    ";
+    if (const auto& example = scene::Host<Type>::example; example[0] != nullptr) \
+        printf("%s\"" #name "\": [\"%s\", \"%s\"]", std::exchange(before, ",\n    "), example[0], example[1]);
     QRAY_SHAPES(QRAY_SHAPE)
 #undef QRAY_SHAPE
     before = "},\n\"textures\": {";

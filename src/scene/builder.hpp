@@ -3,7 +3,9 @@
 #pragma once
 
 #include <stdio.h>
+#include <string.h>
 
+#include "members.hpp"
 #include "resolution.hpp"
 #include "settings.hpp"
 #include "storage.hpp"
@@ -102,6 +104,36 @@ public:
         return first;
     }
 
+    // A triangle in little room, if that is asked for and its numbers fit: then it is pushed, with corners that others may
+    // have already. `normals` are null where it is flat.
+    template <class T>
+    bool push_lean(Array<T>& table, const Point<N>* corners, const Direction<N>* normals, const Direction<N>& g,
+                   uint32_t place, uint32_t fill)
+    {
+        if (!settings.lean || place > UINT16_MAX || fill > UINT8_MAX || s.vertices.count + 3 > UINT16_MAX)
+            return false;
+        T t{{}, static_cast<uint16_t>(place), {}, static_cast<uint8_t>(fill)};
+        if constexpr (N::is_fixed) {
+            Direction<N> across{};
+            if (!normal_across<N>(corners[0], corners[1], corners[2], across))
+                return false;
+            const auto rest = [](auto whole, auto part, int8_t& to) {
+                const int32_t difference = whole.raw - part.raw;
+                to = static_cast<int8_t>(difference);
+                return to == difference;
+            };
+            if (!rest(g.x, across.x, t.normal.x) || !rest(g.y, across.y, t.normal.y) || !rest(g.z, across.z, t.normal.z))
+                return false;
+        } else {
+            t.normal = {g.x, g.y, g.z};
+        }
+        uint16_t* const numbers[] = {&t.corners.a, &t.corners.b, &t.corners.c};
+        for (int i = 0; i < 3; i++)
+            *numbers[i] = static_cast<uint16_t>(shared_corner(corners[i], normals == nullptr ? nullptr : normals + i));
+        table.push() = t;
+        return true;
+    }
+
 private:
     static constexpr bool is_float = !N::is_fixed && sizeof(typename N::Length) == 4;
     const Settings& settings;
@@ -184,9 +216,29 @@ private:
         }
     }
 
+    uint32_t shared_corner(const Point<N>& p, const Direction<N>* normal)
+    {
+        uint64_t at = 0;
+        add_to_hash(at, Vec3d{value(p.x), value(p.y), value(p.z)});
+        for (;; at++) {
+            uint32_t& slot = s.corner_slots.data[at %= s.corner_slots.count];
+            if (slot == 0) {
+                s.vertices.push() = p;
+                if (normal != nullptr)
+                    s.normals.push() = *normal;
+                slot = s.vertices.count;
+            }
+            if (s.vertices.data[slot - 1] == p && (normal == nullptr || s.normals.data[slot - 1] == *normal))
+                return slot - 1;
+        }
+    }
+
     // What is smooth first: a corner's shading normal has the number of the corner, and other figures need none.
     void shapes()
     {
+        s.corner_slots.count = 2 * d.vertex_count + 1;
+        if (settings.lean)
+            memset(s.corner_slots.data, 0, s.corner_slots.count * sizeof *s.corner_slots.data);
         for (const bool smooth : {true, false}) {
             uint32_t place = 0;
             for (uint32_t i = 0; i < d.object_count; i++) {

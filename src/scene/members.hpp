@@ -2,6 +2,10 @@
 #pragma once
 
 #include <stddef.h>
+#include <stdint.h>
+
+#include <bit>
+#include <type_traits>
 
 namespace qray::scene {
 
@@ -46,6 +50,18 @@ void with_members(const T& v, F f)
     QRAY_MEMBERS(11, a, b, c, d, e, g, h, i, j, k, l)
     QRAY_MEMBERS(12, a, b, c, d, e, g, h, i, j, k, l, m)
 #undef QRAY_MEMBERS
+}
+
+// Of a structure of numbers, member by member.
+template <class T>
+void add_to_hash(uint64_t& hash, const T& v)
+{
+    if constexpr (std::is_class_v<T>) {
+        with_members(v, [&hash](const auto&... members) { (add_to_hash(hash, members), ...); });
+    } else {
+        hash = (hash ^ std::bit_cast<uint64_t>(static_cast<double>(v))) * 0x9e3779b97f4a7c15;
+        hash ^= hash >> 32;
+    }
 }
 
 } // namespace qray::scene

@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdio>
 #include <span>
 #include <string_view>
-#include <type_traits>
 
 namespace qray::scene {
 
@@ -95,18 +93,6 @@ private:
     std::string_view found;
     int used = 0;
 };
-
-// Of a structure of numbers, member by member.
-template <class T>
-void add_to_hash(uint64_t& hash, const T& v)
-{
-    if constexpr (std::is_class_v<T>) {
-        with_members(v, [&hash](const auto&... members) { (add_to_hash(hash, members), ...); });
-    } else {
-        hash = (hash ^ std::bit_cast<uint64_t>(static_cast<double>(v))) * 0x9e3779b97f4a7c15;
-        hash ^= hash >> 32;
-    }
-}
 
 class Parser : public Reader {
 public:

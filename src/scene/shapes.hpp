@@ -6,6 +6,7 @@
 #include "shape/patch.hpp"
 #include "shape/polygon.hpp"
 #include "shape/sphere.hpp"
+#include "shape/triangle.hpp"
 
 namespace qray::scene {
 

@@ -54,8 +54,10 @@ struct Storage {
     Array<BoxNode> nodes;
     BallNode balls[Tree<N>::most_balls];
     Tree<N> tree;
-    Array<SplitBox> split_shapes, split_nodes; // for the builder alone, as is
+    // For the builder alone.
+    Array<SplitBox> split_shapes, split_nodes; // as is
     Array<SortedObject> sorted;
+    Array<uint32_t> corner_slots; // the number of a corner, and 1, at its hash or the next place that was free
 
     // Cuts empty tables from the room where it is large enough; returns how many bytes it must have.
     size_t lay_out(const Description& d)
@@ -74,6 +76,8 @@ struct Storage {
 #define QRAY_CUT(Type, name, table) cut(table, shapes[static_cast<int>(Kind::name)]);
             QRAY_SHAPES(QRAY_CUT)
 #undef QRAY_CUT
+            cut(triangles, shapes[static_cast<int>(Kind::polygon)]);
+            cut(smooth_triangles, shapes[static_cast<int>(Kind::patch)]);
             cut(vertices, d.vertex_count);
             cut(normals, d.vertex_count);
             cut(tree_shapes, all);
@@ -84,6 +88,7 @@ struct Storage {
             // All but those of leaves are full, and with two leaves each there are bound_lanes of these below one.
             cut(nodes, (all + 1) / 2 * bound_lanes / (bound_lanes - 1) + 2);
             cut(sorted, d.object_count);
+            cut(corner_slots, 2 * d.vertex_count + 1);
             cut(mattes, d.fill_count);
             cut(textures, d.fill_count);
 #define QRAY_CUT(Type, name, table) cut(table, d.fill_count);

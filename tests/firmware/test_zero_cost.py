@@ -25,10 +25,11 @@ LIGHT = {"light": "l 3 4 5\n", "sun": "sun 1 2 3\n"}
 MATERIAL = {
     "highlight": "highlight 0.5 shine 3.5", "mirror": "mirror 0.3", "transmit": "transmit 0.4 ior 1.5",
 }
-# All but what has no header of its own; no firmware has a tree.
-EFFECTS = [effect for effect in TOLD["effects"] if effect not in ("fractional_shine", "tree")]
+# All but what has no header of its own, and but those that the text does not say.
+UNSAID = {"tree", "triangle", "smooth_triangle"}
+EFFECTS = [effect for effect in TOLD["effects"] if effect not in UNSAID | {"fractional_shine"}]
 # What a scene lacks beside an effect: light comes through surfaces that transmit; samples are taken in one way.
-WITHOUT = {effect: {"adaptive"} for effect in [*EFFECTS, "tree"]} | {"grid": set(), "adaptive": set()}
+WITHOUT = {effect: {"adaptive"} for effect in [*EFFECTS, *UNSAID]} | {"grid": set(), "adaptive": set()}
 WITHOUT["light"] |= {"light_surface"}
 WITHOUT["shadow"] |= {"see_through", "light_surface"}
 WITHOUT["see_through"] |= {"transmit"}
@@ -122,7 +123,7 @@ class ZeroCost(unittest.TestCase):
         absent = set(EFFECTS) - {"sphere", "light"}
         whole = self.compiled("least", absent, HEADERS)
         self.assertEqual(effects_of("least"), {"sphere", "light"})
-        self.assertEqual(self.compiled("least", absent, reduced([*absent, "tree"], "least_reduced")), whole)
+        self.assertEqual(self.compiled("least", absent, reduced([*absent, *UNSAID], "least_reduced")), whole)
 
     # What a scene does call for cannot be reduced.
     def test_it_can_fail(self):

@@ -12,7 +12,9 @@
 #include "../shape/disc.hpp"
 #include "../shape/patch.hpp"
 #include "../shape/polygon.hpp"
+#include "../shape/smooth_triangle.hpp"
 #include "../shape/sphere.hpp"
+#include "../shape/triangle.hpp"
 #include "../surface/highlight.hpp"
 #include "../surface/mirror.hpp"
 #include "../surface/transmit.hpp"
@@ -31,7 +33,9 @@
     X(Disc, disc, discs) /* a plane is one */ \
     X(Cone, cone, cones) /* so is a cylinder */ \
     X(Polygon, polygon, polygons) \
-    X(Patch, patch, patches)
+    X(Patch, patch, patches) \
+    X(Triangle, triangle, triangles) /* of polygons and patches in compiled scenes, in little room */ \
+    X(SmoothTriangle, smooth_triangle, smooth_triangles)
 
 #define QRAY_TEXTURES(X) \
     X(Checker, checker, checkers) \

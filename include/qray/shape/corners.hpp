@@ -197,4 +197,28 @@ constexpr bool intersect_corners(const Direction<N>& normal, uint32_t count, Cor
     return plane_distance<N>(normal, count, corner, ray, den, limit, t);
 }
 
+// The barycentric blend of a triangle's corner normals where the ray meets it: unit, not yet turned; g where it vanishes.
+template <class N, class S>
+QRAY_INLINE constexpr Direction<N> blended_normal(const S& s, const Corners<N>& corners, const Ray<N>& ray)
+{
+    const auto& [vertices, normals] = corners;
+    const Shear<N> shear(ray.direction);
+    const Sheared<N> a = shear(vertices[s.corner(0)] - ray.origin);
+    const Sheared<N> b = shear(vertices[s.corner(1)] - ray.origin);
+    const Sheared<N> c = shear(vertices[s.corner(2)] - ray.origin);
+    const auto u = edge<N>(b, c), v = edge<N>(c, a), w = edge<N>(a, b);
+    typename N::Unit wa{}, wb{}, wc{};
+    Direction<N> n = normal_of(s, corners);
+    if (N::weights(u, v, w, wa, wb, wc)) {
+        const Direction<N>& na = normals[s.corner(0)];
+        const Direction<N>& nb = normals[s.corner(1)];
+        const Direction<N>& nc = normals[s.corner(2)];
+        using Blend = Vec<typename N::Cosine>;
+        normalise_short<N>(Blend{wa * na.x + wb * nb.x + wc * nc.x, wa * na.y + wb * nb.y + wc * nc.y,
+                                 wa * na.z + wb * nb.z + wc * nc.z},
+                           n);
+    }
+    return n;
+}
+
 } // namespace qray

@@ -15,6 +15,8 @@ struct Patch {
     typename N::Length bound; // its radius
     uint32_t first, second;   // corners: first, second, second + 1; vertices and corner normals alike
     Tag tag;
+
+    constexpr uint32_t corner(uint32_t i) const { return i == 0 ? first : second + i - 1; }
 };
 
 template <class N>
@@ -27,7 +29,7 @@ QRAY_INLINE constexpr bool surely_missed(const Patch<N>& s, const RejectRay<N>& 
 template <class N>
 QRAY_INLINE constexpr auto corners_from(const Patch<N>& s, const Point<N>* corners, const Ray<N>& ray)
 {
-    return [&s, corners, &ray](uint32_t i) { return corners[i == 0 ? s.first : s.second + i - 1] - ray.origin; };
+    return [&s, corners, &ray](uint32_t i) { return corners[s.corner(i)] - ray.origin; };
 }
 
 template <class N>
@@ -69,28 +71,16 @@ QRAY_INLINE constexpr void surface_of(const Patch<N>& s, const Corners<N>& corne
     point = on_plane<N>(corners.points[s.first], n, ray.origin + along<N>(t, ray.direction));
 }
 
-// The shading normal where the ray meets the triangle: unit, not yet turned; g where the blend vanishes.
+template <class N>
+QRAY_INLINE constexpr Direction<N> normal_of(const Patch<N>& s, const Corners<N>&)
+{
+    return s.normal;
+}
+
 template <class N>
 constexpr Direction<N> shading_normal(const Patch<N>& s, const Corners<N>& corners, const Ray<N>& ray)
 {
-    const auto& [vertices, normals] = corners;
-    const Shear<N> shear(ray.direction);
-    const Sheared<N> a = shear(vertices[s.first] - ray.origin);
-    const Sheared<N> b = shear(vertices[s.second] - ray.origin);
-    const Sheared<N> c = shear(vertices[s.second + 1] - ray.origin);
-    const auto u = edge<N>(b, c), v = edge<N>(c, a), w = edge<N>(a, b);
-    typename N::Unit wa{}, wb{}, wc{};
-    Direction<N> n = s.normal;
-    if (N::weights(u, v, w, wa, wb, wc)) {
-        const Direction<N>& na = normals[s.first];
-        const Direction<N>& nb = normals[s.second];
-        const Direction<N>& nc = normals[s.second + 1];
-        using Blend = Vec<typename N::Cosine>;
-        normalise_short<N>(Blend{wa * na.x + wb * nb.x + wc * nc.x, wa * na.y + wb * nb.y + wc * nc.y,
-                                 wa * na.z + wb * nb.z + wc * nc.z},
-                           n);
-    }
-    return n;
+    return blended_normal(s, corners, ray);
 }
 
 } // namespace qray

@@ -69,4 +69,10 @@ QRAY_INLINE constexpr void surface_of(const Polygon<N>& s, const Corners<N>& cor
     point = on_plane<N>(corners.points[s.first], n, in_world(ray, t));
 }
 
+template <class N>
+QRAY_INLINE constexpr Direction<N> normal_of(const Polygon<N>& s, const Corners<N>&)
+{
+    return s.normal;
+}
+
 } // namespace qray

@@ -104,12 +104,12 @@ constexpr int crossings_before(const Scene<N, E>& scene, const S& shape, const R
 {
     for (uint32_t i = 0; i < scene.light_surfaces.count; i++) {
         const LightSurface<N>& surface = scene.light_surfaces[i];
-        if (surface.light != light || !(surface.tag == shape.tag))
+        if (surface.light != light || !(surface.tag == tag_of(shape)))
             continue;
         const Ray<N> back = from_light(surface, scene.lights[light].at, ray);
         const int at_light = back.outward ? surface.side < 0 : surface.side > 0;
         // Between two points on one surface, which is flat or convex, the way does not cross it.
-        return at_light + (ray.from == shape.tag ? 0 : crossings(shape, corners_of(scene), back, distance));
+        return at_light + (ray.from == tag_of(shape) ? 0 : crossings(shape, corners_of(scene), back, distance));
     }
     return crossings_before(scene, shape, ray, distance);
 }
@@ -121,9 +121,9 @@ QRAY_INLINE constexpr void keep_nearest(const Scene<N, E>& scene, const Ray<N>& 
 {
     typename N::Length t{};
     Local<N> local{};
-    if (intersect<!E.tree>(shape, candidates_corners(scene), ray, hit.t, t, local) && hit.is_behind(t, shape.tag)) {
+    if (intersect<!E.tree>(shape, candidates_corners(scene), ray, hit.t, t, local) && hit.is_behind(t, tag_of(shape))) {
         hit.t = t;
-        hit.tag = shape.tag;
+        hit.tag = tag_of(shape);
         hit.kind = kind;
         hit.index = index;
         if constexpr (S::is_curved)

@@ -43,12 +43,12 @@ constexpr typename N::Unit light_through(const Scene<N, E>& scene, const Ray<N>&
         Veils found;
         bool blocked = false;
         for_each_candidate(scene, ray, [distance] { return distance; }, [&](const auto& shape, Kind, uint32_t) {
-            if (!first && shape.tag.place() <= last)
+            if (!first && tag_of(shape).place() <= last)
                 return false;
             const int times = crossings_before(scene, shape, ray, distance, light...);
             if (times != 0) {
-                blocked = amount(shape.tag) == N::zero;
-                found.add({shape.tag, times});
+                blocked = amount(tag_of(shape)) == N::zero;
+                found.add({tag_of(shape), times});
             }
             return blocked;
         });

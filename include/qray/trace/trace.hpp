@@ -209,8 +209,9 @@ QRAY_NOINLINE constexpr bool touches_edge(const Scene<N, E>& scene, Ray<N> ray, 
         if constexpr (S::has_corners) {
             typename N::Length t{};
             Local<N> local{};
-            const auto cosine = N::unit(dot<N>(left, shape.normal));
-            touches = !(shape.tag == tag) && dot<N>(shape.normal, ray.direction) < typename N::Cosine{} && cosine < parallel
+            const Direction<N> normal = normal_of(shape, corners_of(scene));
+            const auto cosine = N::unit(dot<N>(left, normal));
+            touches = !(tag_of(shape) == tag) && dot<N>(normal, ray.direction) < typename N::Cosine{} && cosine < parallel
                 && -cosine < parallel && intersect(shape, corners_of(scene), ray, at, t, local);
         }
         return touches;

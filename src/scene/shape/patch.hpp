@@ -43,24 +43,31 @@ struct Host<Patch> : HostOfCorners {
         double longest = 0;
         for (uint32_t i = 0; i < o.count; i++)
             longest = fmax(longest, length(b.d.normals[o.vertex + i]));
-        const uint32_t first = b.push_corners(o);
-        for (uint32_t i = 0; i < o.count; i++)
-            b.s.normals.push() = Convert<N>::direction(b.d.normals[o.vertex + i] * (1 / longest));
+        const auto normal = [&](uint32_t i) {
+            return Convert<N>::direction(b.d.normals[o.vertex + i] * (1 / longest));
+        };
+        const Vec3d* const v = b.d.vertices + o.vertex;
+        uint32_t first = UINT32_MAX; // of the corners, where they stand together
         for (uint32_t i = 1; i + 1 < o.count; i++, place++) {
-            const Vec3d* v = b.d.vertices + o.vertex;
             const Vec3d corners[3] = {v[0], v[i], v[i + 1]};
             const Vec3d g = triangle_area(corners[0], corners[1], corners[2]);
-            const Point<N>* at = b.s.vertices.data;
-            const Point<N> rounded[3] = {at[first], at[first + i], at[first + i + 1]};
+            const Point<N> rounded[3] = {b.point(v[0]), b.point(v[i]), b.point(v[i + 1])};
             if (!(length(g) > 0)) // the parser has counted it
                 continue;
             if (!spans(rounded, 3)) {
                 b.leave_out(o);
                 continue;
             }
+            const Direction<N> flat = Convert<N>::direction(unit(g)), smooth[3] = {normal(0), normal(i), normal(i + 1)};
+            if (b.push_lean(b.s.smooth_triangles, rounded, smooth, flat, place, o.fill))
+                continue;
+            if (first == UINT32_MAX) {
+                first = b.push_corners(o);
+                for (uint32_t k = 0; k < o.count; k++)
+                    b.s.normals.push() = normal(k);
+            }
             const auto around = corner_ball(b, corners, 3);
-            b.s.patches.push() = {Convert<N>::direction(unit(g)), around.middle, around.radius, first, first + i,
-                                  make_tag(place, o.fill)};
+            b.s.patches.push() = {flat, around.middle, around.radius, first, first + i, make_tag(place, o.fill)};
         }
     }
     template <class N>

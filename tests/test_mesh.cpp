@@ -1,0 +1,133 @@
+// Triangles in little room: what shares corners, what is left as it was, and that pictures are those of polygons and patches.
+#include "scene_helpers.hpp"
+
+#include <random>
+
+namespace {
+
+using namespace qray;
+using namespace qray::test;
+
+template <class N>
+struct LeanTest : ::testing::Test {};
+TYPED_TEST_SUITE(LeanTest, NumberSystems, SystemNames);
+
+constexpr scene::Settings lean()
+{
+    scene::Settings s;
+    s.lean = true;
+    return s;
+}
+
+const std::string view = "v from 1 2 9 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 40 30\nl 5 9 7 l -6 2 4\n";
+
+// The six corners of an octahedron, as text: x, -x, y, -y, z, -z; smooth, each with the normal along its axis.
+std::string octahedron(bool smooth, const char* scale = "1")
+{
+    const auto corner = [&](int axis, bool negative) {
+        std::string place, normal;
+        for (int i = 0; i < 3; i++) {
+            place += i == axis ? std::string(negative ? " -" : " ") + scale : " 0";
+            normal += i == axis ? negative ? " -1" : " 1" : " 0";
+        }
+        return place + (smooth ? normal : "");
+    };
+    std::string text;
+    for (int i = 0; i < 8; i++)
+        text += std::string(smooth ? "pp" : "p") + " 3" + corner(0, i & 1) + corner(1, i & 2) + corner(2, i & 4) + "\n";
+    return text;
+}
+
+TYPED_TEST(LeanTest, EqualCornersAreStoredOnce)
+{
+    using N = TypeParam;
+    const auto& s = storage<N>();
+    ASSERT_TRUE(loaded<N>(view + octahedron(true), lean()));
+    EXPECT_EQ(s.smooth_triangles.count, 8u);
+    EXPECT_EQ(s.vertices.count, 6u);
+    EXPECT_EQ(s.normals.count, 6u);
+    EXPECT_EQ(s.patches.count, 0u);
+    // Flat ones at the same places share them, and need no normals.
+    ASSERT_TRUE(loaded<N>(view + octahedron(false) + octahedron(true) + octahedron(false, "2"), lean()));
+    EXPECT_EQ(s.triangles.count, 16u);
+    EXPECT_EQ(s.smooth_triangles.count, 8u);
+    EXPECT_EQ(s.vertices.count, 12u);
+    EXPECT_EQ(s.normals.count, 6u);
+    EXPECT_EQ(s.polygons.count, 0u);
+    // Other normals at the same place make other corners.
+    ASSERT_TRUE(loaded<N>(view + octahedron(true) + "pp 3 1 0 0 0 1 0  0 1 0 0 1 0  0 0 1 0 0 1", lean()));
+    EXPECT_EQ(s.vertices.count, 7u);
+    // On a desktop all stay as they are.
+    ASSERT_TRUE(loaded<N>(view + octahedron(true) + octahedron(false)));
+    EXPECT_EQ(s.triangles.count + s.smooth_triangles.count, 0u);
+    EXPECT_EQ(s.vertices.count, 48u);
+}
+
+// A tag's place has 16 bits there, and a material 8; figures of more corners have none.
+TYPED_TEST(LeanTest, WhatDoesNotFitIsLeft)
+{
+    using N = TypeParam;
+    const auto& s = storage<N>();
+    std::string text = view + "p 4 -1 0 0 0 -1 0 1 0 0 0 1 0\n" + octahedron(false);
+    for (int i = 0; i < 257; i++)
+        text += "material shine " + std::to_string(i) + " s 5 0 0 1\n";
+    text += octahedron(true); // of material 256, for shine 1 is the first's
+    ASSERT_TRUE(loaded<N>(text, lean()));
+    EXPECT_EQ(s.polygons.count, 1u);
+    EXPECT_EQ(s.triangles.count, 8u);
+    EXPECT_EQ(s.patches.count, 8u);
+    if (!WideFixed<N>) // the same for all
+        return;
+    std::string many = view;
+    for (int i = 0; i < 65532; i++)
+        many += "s 0 0 0 1\n";
+    ASSERT_TRUE(loaded<N>(many + octahedron(false), lean()));
+    EXPECT_EQ(s.triangles.count, 4u);
+    EXPECT_EQ(s.polygons.count, 4u);
+    EXPECT_EQ(s.vertices.count, 5u + 4 * 3);
+}
+
+// Triangles large and small, flat, smooth and along one another's edges, of glass and mirrors, before the eye and at it.
+TYPED_TEST(LeanTest, PicturesAreThoseOfPolygonsAndPatches)
+{
+    using N = TypeParam;
+    std::mt19937 random(3);
+    const auto number = [&random](double size) {
+        return std::to_string(size * (static_cast<double>(random() % 20001) / 10000 - 1)) + " ";
+    };
+    uint32_t triangles = 0, others = 0;
+    for (int scene = 0; scene < 3; scene++) {
+        std::string text = view;
+        for (int i = 0; i < 120; i++) {
+            if (i % 10 == 0)
+                text += "material colour 0.9 0.7 0.5 diffuse 0.6 " + std::string(i % 20 == 0 ? "mirror 0.5\n" : "transmit 0.5 ior 1.4\n");
+            const double size = i % 12 == 0 ? 4 : i % 3 == 0 ? 1 : i % 7 == 0 ? 0.003 : 0.3;
+            const bool smooth = i % 2 == 1;
+            const std::string places[] = {number(2), number(2), number(2)};
+            text += smooth ? "pp 3 " : "p 3 ";
+            for (int corner = 0; corner < 3; corner++) {
+                for (const std::string& place : places)
+                    text += std::to_string(std::stod(place) + size * (static_cast<double>(random() % 2001) / 1000 - 1)) + " ";
+                if (smooth)
+                    text += number(0.5) + number(0.5) + "1 ";
+            }
+            text += "\n";
+        }
+        ASSERT_TRUE(loaded<N>(text));
+        const Picture expected = draw<N>();
+        const uint32_t all = storage<N>().polygons.count + storage<N>().patches.count;
+        ASSERT_TRUE(loaded<N>(text, lean()));
+        const auto& s = storage<N>();
+        EXPECT_EQ(s.polygons.count + s.patches.count + s.triangles.count + s.smooth_triangles.count, all);
+        triangles += s.triangles.count + s.smooth_triangles.count;
+        others += s.polygons.count + s.patches.count;
+        EXPECT_EQ(draw<N>(), expected);
+    }
+    EXPECT_GT(triangles, 250u);
+    if (N::is_fixed) // slivers, of which rounded corners say too little
+        EXPECT_GT(others, 0u);
+    else
+        EXPECT_EQ(others, 0u);
+}
+
+} // namespace
