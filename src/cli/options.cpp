@@ -206,6 +206,7 @@ int read_options(Command command, int argc, char** argv, Options& options)
         if (!option->take(options, value))
             return bad_options("'%s %s': expected %s", option->name, scene::ShownName(value).text, option->expected);
     }
+    options.settings.compiled = command == Command::compile;
     if (options.has_samples && options.settings.levels != 0)
         return bad_options("'-a' and '-r' exclude each other: adaptive sampling chooses the samples of a pixel");
     if (options.scene == nullptr || *options.scene == 0)

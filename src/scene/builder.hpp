@@ -3,9 +3,9 @@
 #pragma once
 
 #include <stdio.h>
-#include <string.h>
 
-#include "members.hpp"
+#include "flatten.hpp"
+#include "lean.hpp"
 #include "resolution.hpp"
 #include "settings.hpp"
 #include "storage.hpp"
@@ -24,6 +24,7 @@ public:
     {
         if (!few_enough(error))
             return false;
+        flat = settings.compiled && surfaces() >= least_for_tree<N>;
         if (s.lay_out(d) > s.room.size) {
             snprintf(error.text, sizeof error.text, "not enough memory");
             return false;
@@ -39,7 +40,11 @@ public:
         materials();
         camera();
         eye_surface();
-        build_tree(s);
+        s.entries.count = 0;
+        if (flat)
+            Flattener<N>(s).flatten();
+        else
+            build_tree(s);
         effects();
         return true;
     }
@@ -95,6 +100,14 @@ public:
             return r == N::length_zero;
     }
 
+    // A triangle in little room, where a tree finds it and it fits; see lean.hpp.
+    template <class T>
+    bool push_lean(Array<T>& table, const Point<N>* corners, const Direction<N>* normals, const Direction<N>& g,
+                   uint32_t place, uint32_t fill)
+    {
+        return flat && LeanBuilder<N>{s}.push(table, corners, normals, g, place, fill);
+    }
+
     // The number of the first of some corners, now in the scene's vertices.
     uint32_t push_corners(const Object& o)
     {
@@ -104,54 +117,31 @@ public:
         return first;
     }
 
-    // A triangle in little room, if that is asked for and its numbers fit: then it is pushed, with corners that others may
-    // have already. `normals` are null where it is flat.
-    template <class T>
-    bool push_lean(Array<T>& table, const Point<N>* corners, const Direction<N>* normals, const Direction<N>& g,
-                   uint32_t place, uint32_t fill)
-    {
-        if (!settings.lean || place > UINT16_MAX || fill > UINT8_MAX || s.vertices.count + 3 > UINT16_MAX)
-            return false;
-        T t{{}, static_cast<uint16_t>(place), {}, static_cast<uint8_t>(fill)};
-        if constexpr (N::is_fixed) {
-            Direction<N> across{};
-            if (!normal_across<N>(corners[0], corners[1], corners[2], across))
-                return false;
-            const auto rest = [](auto whole, auto part, int8_t& to) {
-                const int32_t difference = whole.raw - part.raw;
-                to = static_cast<int8_t>(difference);
-                return to == difference;
-            };
-            if (!rest(g.x, across.x, t.normal.x) || !rest(g.y, across.y, t.normal.y) || !rest(g.z, across.z, t.normal.z))
-                return false;
-        } else {
-            t.normal = {g.x, g.y, g.z};
-        }
-        uint16_t* const numbers[] = {&t.corners.a, &t.corners.b, &t.corners.c};
-        for (int i = 0; i < 3; i++)
-            *numbers[i] = static_cast<uint16_t>(shared_corner(corners[i], normals == nullptr ? nullptr : normals + i));
-        table.push() = t;
-        return true;
-    }
-
 private:
     static constexpr bool is_float = !N::is_fixed && sizeof(typename N::Length) == 4;
     const Settings& settings;
     Resolution<N> resolution{d, frame, s.lost};
 
+    bool flat = false; // a compiled scene with a tree, which finds triangles that take little room
+
+    uint64_t surfaces() const
+    {
+        uint64_t sum = 0;
+        for (uint32_t i = 0; i < d.object_count; i++)
+            sum += surfaces_of(d.objects[i]);
+        return sum;
+    }
+
     // A tag has room for so many places, but for the last of the last material, which names no surface.
     bool few_enough(Error& error) const
     {
-        uint64_t surfaces = 0;
-        for (uint32_t i = 0; i < d.object_count; i++)
-            surfaces += surfaces_of(d.objects[i]);
         const uint32_t most = Limits::surfaces - (d.fill_count == Limits::materials);
-        if (surfaces <= most)
+        if (surfaces() <= most)
             return true;
         snprintf(error.text, sizeof error.text,
                  "the scene has %llu surfaces (a patch of n corners counts as n - 2), "
                  "more than the limit of %u surfaces",
-                 static_cast<unsigned long long>(surfaces), most);
+                 static_cast<unsigned long long>(surfaces()), most);
         return false;
     }
 
@@ -216,29 +206,11 @@ private:
         }
     }
 
-    uint32_t shared_corner(const Point<N>& p, const Direction<N>* normal)
-    {
-        uint64_t at = 0;
-        add_to_hash(at, Vec3d{value(p.x), value(p.y), value(p.z)});
-        for (;; at++) {
-            uint32_t& slot = s.corner_slots.data[at %= s.corner_slots.count];
-            if (slot == 0) {
-                s.vertices.push() = p;
-                if (normal != nullptr)
-                    s.normals.push() = *normal;
-                slot = s.vertices.count;
-            }
-            if (s.vertices.data[slot - 1] == p && (normal == nullptr || s.normals.data[slot - 1] == *normal))
-                return slot - 1;
-        }
-    }
-
     // What is smooth first: a corner's shading normal has the number of the corner, and other figures need none.
     void shapes()
     {
-        s.corner_slots.count = 2 * d.vertex_count + 1;
-        if (settings.lean)
-            memset(s.corner_slots.data, 0, s.corner_slots.count * sizeof *s.corner_slots.data);
+        if (flat)
+            LeanBuilder<N>{s}.start(2 * d.vertex_count + 1);
         for (const bool smooth : {true, false}) {
             uint32_t place = 0;
             for (uint32_t i = 0; i < d.object_count; i++) {

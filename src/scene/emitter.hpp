@@ -32,6 +32,7 @@ constexpr const char* fields_of(std::string_view table)
         {"textures", "by material: kind; index into the table of that kind"},
         {"lights", "place / 2^shift; shift; colour"},
         {"suns", "direction towards it; colour"},
+        {"entries", "boxes, a tree in preorder: middle; half; link"},
         {"light_surfaces", "light; tag of the surface that it lies on; normal there; side"},
     };
     for (const auto& k : known)
@@ -54,9 +55,11 @@ void for_each_table(const Storage<N>& s, const Effects& e, F f)
 template <class N>
 class Emitter {
 public:
+    // Of a scene that was built with Settings::compiled.
     Emitter(const Storage<N>& from, Source& to) : s(from), out(to), e(from.effects)
     {
-        e.tree = false; // it pays from some hundred shapes on, and takes a float a ray
+        e.tree = false;
+        e.flat_tree = s.entries.count != 0;
     }
 
     // `title` may be empty; `origin` says what the header was made from; `name` is of the namespace.

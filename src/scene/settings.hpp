@@ -12,7 +12,7 @@ struct Settings {
     double cutoff = 0.0014;
     uint32_t levels = 0; // of adaptive sampling; 0: none
     double threshold = 1.0 / 16;
-    bool lean = false; // triangles take little room, and a tree finds them: for compiled scenes
+    bool compiled = false; // for a header: a tree that boards can read, and triangles in little room
     static constexpr uint32_t max_depth = 64;
     static constexpr uint32_t max_grid = 64;
     static constexpr uint32_t max_levels = 6;

@@ -57,6 +57,7 @@ struct Storage {
     // For the builder alone.
     Array<SplitBox> split_shapes, split_nodes; // as is
     Array<SortedObject> sorted;
+    Array<uint32_t> order, tests; // of flatten.hpp
     Array<uint32_t> corner_slots; // the number of a corner, and 1, at its hash or the next place that was free
 
     // Cuts empty tables from the room where it is large enough; returns how many bytes it must have.
@@ -99,6 +100,9 @@ struct Storage {
             QRAY_LIGHTS(QRAY_CUT)
 #undef QRAY_CUT
             cut(light_surfaces, d.light_count * light_surfaces_each);
+            cut(entries, 2 * all);
+            cut(order, all);
+            cut(tests, 2 * all);
         });
     }
 

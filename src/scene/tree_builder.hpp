@@ -110,17 +110,25 @@ private:
     }
 };
 
+// The boxes of all shapes.
 template <class N>
-void build_tree(Storage<N>& s)
+void box_shapes(Storage<N>& s)
 {
-    static_assert(Tree<N>::max_depth == max_split_depth);
-    s.split_shapes.count = s.nodes.count = s.tree_shapes.count = s.outlines.count = 0;
+    s.split_shapes.count = 0;
 #define QRAY_ADD(Type, name, table) \
     for (uint32_t i = 0; i < s.table.count; i++) \
         s.split_shapes.push() = SplitBox::around(Host<Type>::box(s.table.data[i], {s.vertices.data, s.normals.data}), \
                                                  box_slack<N>, shape_id(Kind::name, i).bits);
     QRAY_SHAPES(QRAY_ADD)
 #undef QRAY_ADD
+}
+
+template <class N>
+void build_tree(Storage<N>& s)
+{
+    static_assert(Tree<N>::max_depth == max_split_depth);
+    box_shapes(s);
+    s.nodes.count = s.tree_shapes.count = s.outlines.count = 0;
     const uint32_t count = s.split_shapes.count;
     OutlineBuilder<N> outlines(s);
     s.tree_shapes.count = count;

@@ -72,7 +72,8 @@
     X(, light_surface, ) /* so does a light */ \
     X(, grid, )        /* several samples a pixel, */ \
     X(, adaptive, )    /* or as many as it takes */ \
-    X(, tree, )        /* over the shapes */
+    X(, tree, )        /* of a desktop, over the shapes */ \
+    X(, flat_tree, )   /* of a compiled scene */
 
 // All tables of a scene, in its order.
 #define QRAY_TABLES(X) \
@@ -84,7 +85,8 @@
     X(TextureOf, texture(), textures) /* by material */ \
     QRAY_TEXTURES(X) \
     QRAY_LIGHTS(X) \
-    X(LightSurface, light_surface, light_surfaces)
+    X(LightSurface, light_surface, light_surfaces) \
+    X(TreeEntry, flat_tree, entries)
 
 namespace qray {
 

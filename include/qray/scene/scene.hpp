@@ -6,6 +6,7 @@
 #include "camera.hpp"
 #include "effects.hpp"
 #include "eye_surface.hpp"
+#include "flat_tree.hpp"
 #include "light_surface.hpp"
 #include "tree.hpp"
 

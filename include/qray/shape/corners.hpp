@@ -9,6 +9,7 @@
 #pragma once
 
 #include "plane.hpp"
+#include "projected_ray.hpp"
 
 namespace qray {
 
@@ -178,6 +179,15 @@ QRAY_INLINE constexpr bool encloses(uint32_t count, Corner corner, const Directi
     return inside;
 }
 
+// Is the ray's line surely beside a figure of three or four corners?
+template <class N, class Point_of>
+QRAY_INLINE constexpr bool surely_beside(uint32_t count, Point_of point, const ProjectedRay& ray)
+{
+    // Where it passes inside of one, it passes inside of an odd number of the triangles that it is fanned into.
+    return count <= 4 && ray.misses<N>(point(0), point(1), point(2))
+        && (count == 3 || ray.misses<N>(point(0), point(2), point(3)));
+}
+
 // Enclosed: the ray is known to pass inside.
 template <bool Enclosed, class N, class Corner>
 constexpr bool intersect_corners(const Direction<N>& normal, uint32_t count, Corner corner, const Ray<N>& ray,
@@ -199,7 +209,8 @@ constexpr bool intersect_corners(const Direction<N>& normal, uint32_t count, Cor
 
 // The barycentric blend of a triangle's corner normals where the ray meets it: unit, not yet turned; g where it vanishes.
 template <class N, class S>
-QRAY_INLINE constexpr Direction<N> blended_normal(const S& s, const Corners<N>& corners, const Ray<N>& ray)
+QRAY_INLINE constexpr Direction<N> blended_normal(const S& s, const Corners<N>& corners, const Ray<N>& ray,
+                                                  const Direction<N>& g)
 {
     const auto& [vertices, normals] = corners;
     const Shear<N> shear(ray.direction);
@@ -208,7 +219,7 @@ QRAY_INLINE constexpr Direction<N> blended_normal(const S& s, const Corners<N>& 
     const Sheared<N> c = shear(vertices[s.corner(2)] - ray.origin);
     const auto u = edge<N>(b, c), v = edge<N>(c, a), w = edge<N>(a, b);
     typename N::Unit wa{}, wb{}, wc{};
-    Direction<N> n = normal_of(s, corners);
+    Direction<N> n = g;
     if (N::weights(u, v, w, wa, wb, wc)) {
         const Direction<N>& na = normals[s.corner(0)];
         const Direction<N>& nb = normals[s.corner(1)];

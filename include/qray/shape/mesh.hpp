@@ -77,33 +77,62 @@ QRAY_INLINE constexpr bool surely_missed(const MeshTriangle<N, Smooth>&, const R
     return false;
 }
 
-// t in (0, limit], and the normal; or false. The normal costs more than all else, so it comes last.
-template <class N>
-QRAY_NOINLINE constexpr bool meets(const MeshCorners& at, const LeanNormal<N>& lean, const Point<N>* points, const Ray<N>& ray,
-                                   typename N::Length limit, typename N::Length& t, Direction<N>& normal)
+template <class N, bool Smooth>
+QRAY_INLINE constexpr bool surely_missed(const MeshTriangle<N, Smooth>& s, const Corners<N>& corners, const ProjectedRay& ray)
 {
-    const auto corner = [&at, points, &ray](uint32_t i) {
-        return points[i == 0 ? at.a : i == 1 ? at.b : at.c] - ray.origin;
-    };
-    if (!encloses<N>(3, corner, ray.direction))
-        return false;
-    normal = normal_of<N>(at, lean, points);
+    const auto& [a, b, c] = s.corners;
+    return ray.misses<N>(corners.points[a], corners.points[b], corners.points[c]);
+}
+
+// The corners, relative to a ray's origin.
+template <class N>
+struct CornerFrom {
+    const MeshCorners& at;
+    const Point<N>* points;
+    const Point<N>& origin;
+    QRAY_INLINE constexpr Point<N> operator()(uint32_t i) const
+    {
+        return points[i == 0 ? at.a : i == 1 ? at.b : at.c] - origin;
+    }
+};
+
+// By itself, so that its stack is free again where the normal wants some.
+template <class N>
+QRAY_NOINLINE constexpr bool encloses(const CornerFrom<N>& corner, const Ray<N>& ray)
+{
+    return encloses<N>(3, corner, ray.direction);
+}
+
+// Where a ray meets a triangle that its line passes through.
+template <class N>
+QRAY_NOINLINE constexpr bool meets(const CornerFrom<N>& corner, const LeanNormal<N>& lean, const Ray<N>& ray,
+                                   typename N::Length limit, typename N::Length& t, bool to_light)
+{
+    const Direction<N> normal = normal_of<N>(corner.at, lean, corner.points);
     const auto den = dot<N>(ray.direction, normal);
     const bool edge_on = N::nearly_zero(den);
     if (!edge_on && !intersect_plane<N>(dot<N>(corner(0), normal), den, limit, t))
         return false;
-    if constexpr (!NarrowFixed<N>)
-        if (!edge_on)
-            return true;
-    return plane_distance<N>(normal, 3, corner, ray, den, limit, t);
+    if ((edge_on || NarrowFixed<N>) && !plane_distance<N>(normal, 3, corner, ray, den, limit, t))
+        return false;
+    return !to_light || before_light<N>(normal, ray, t, limit);
+}
+
+// t in (0, limit], or false; also where that is a crossing at the light that stands at `limit`. The normal costs more than
+// all else, so it comes last.
+template <class N, bool Smooth>
+QRAY_INLINE constexpr bool meets(const MeshTriangle<N, Smooth>& s, const Corners<N>& corners, const Ray<N>& ray,
+                                 typename N::Length limit, typename N::Length& t, bool to_light)
+{
+    const CornerFrom<N> corner{s.corners, corners.points, ray.origin};
+    return !(ray.from == tag_of(s)) && encloses(corner, ray) && meets(corner, s.normal, ray, limit, t, to_light);
 }
 
 template <bool Near = false, class N, bool Smooth>
 QRAY_INLINE constexpr bool intersect(const MeshTriangle<N, Smooth>& s, const Corners<N>& corners, const Ray<N>& ray,
                                      typename N::Length limit, typename N::Length& t, Local<N>&)
 {
-    Direction<N> normal;
-    return !(ray.from == tag_of(s)) && meets<N>(s.corners, s.normal, corners.points, ray, limit, t, normal);
+    return meets(s, corners, ray, limit, t, false);
 }
 
 // How often the ray crosses it strictly between its origin and a light at `distance`: 0 or 1.
@@ -112,9 +141,7 @@ QRAY_INLINE constexpr int crossings(const MeshTriangle<N, Smooth>& s, const Corn
                                     typename N::Length distance)
 {
     typename N::Length t{};
-    Direction<N> normal;
-    return !(ray.from == tag_of(s)) && meets<N>(s.corners, s.normal, corners.points, ray, distance, t, normal)
-        && before_light<N>(normal, ray, t, distance);
+    return meets(s, corners, ray, distance, t, true);
 }
 
 template <class N, bool Smooth>
@@ -127,9 +154,10 @@ QRAY_INLINE constexpr void surface_of(const MeshTriangle<N, Smooth>& s, const Co
 }
 
 template <class N>
-constexpr Direction<N> shading_normal(const MeshTriangle<N, true>& s, const Corners<N>& corners, const Ray<N>& ray)
+constexpr Direction<N> shading_normal(const MeshTriangle<N, true>& s, const Corners<N>& corners, const Ray<N>& ray,
+                                      const Direction<N>& g)
 {
-    return blended_normal(s, corners, ray);
+    return blended_normal(s, corners, ray, g);
 }
 
 } // namespace qray

@@ -25,6 +25,12 @@ QRAY_INLINE constexpr bool surely_missed(const Patch<N>& s, const RejectRay<N>& 
     return ray.misses_ball(s.middle, s.bound);
 }
 
+template <class N>
+QRAY_INLINE constexpr bool surely_missed(const Patch<N>& s, const Corners<N>& corners, const ProjectedRay& ray)
+{
+    return surely_beside<N>(3, [&](uint32_t i) { return corners.points[s.corner(i)]; }, ray);
+}
+
 // Corners as seen from the ray's origin.
 template <class N>
 QRAY_INLINE constexpr auto corners_from(const Patch<N>& s, const Point<N>* corners, const Ray<N>& ray)
@@ -78,9 +84,10 @@ QRAY_INLINE constexpr Direction<N> normal_of(const Patch<N>& s, const Corners<N>
 }
 
 template <class N>
-constexpr Direction<N> shading_normal(const Patch<N>& s, const Corners<N>& corners, const Ray<N>& ray)
+constexpr Direction<N> shading_normal(const Patch<N>& s, const Corners<N>& corners, const Ray<N>& ray,
+                                      const Direction<N>& g)
 {
-    return blended_normal(s, corners, ray);
+    return blended_normal(s, corners, ray, g);
 }
 
 } // namespace qray

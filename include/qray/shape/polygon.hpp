@@ -23,6 +23,12 @@ QRAY_INLINE constexpr bool surely_missed(const Polygon<N>& s, const RejectRay<N>
     return ray.misses_ball(s.middle, s.bound);
 }
 
+template <class N>
+QRAY_INLINE constexpr bool surely_missed(const Polygon<N>& s, const Corners<N>& corners, const ProjectedRay& ray)
+{
+    return surely_beside<N>(s.count, [&](uint32_t i) { return corners.points[s.first + i]; }, ray);
+}
+
 // Corners as seen from the ray's origin.
 template <class N>
 QRAY_INLINE constexpr auto corners_from(const Polygon<N>& s, const Point<N>* corners, const Ray<N>& ray)

@@ -9,7 +9,7 @@
 //   intersect<Near>(shape, corners, ray, limit, t, local)        the nearest t in (0, limit], or false
 //   crossings<Near>(shape, corners, ray, distance)               how often the ray crosses it before a light at `distance`
 //   surface_of(shape, corners, ray, t, local, point, normal)     the point of a hit, and the outward unit normal there
-//   shading_normal(shape, corners, ray)                          of a smooth one: unit, not yet turned
+//   shading_normal(shape, corners, ray, normal)                  of a smooth one: unit, not yet turned
 //   normal_of(shape, corners)                                    of one with corners: the outward unit normal
 // Near says that the ray is known not to be surely_missed(). The surface that a ray has just left is told by its tag.
 #pragma once
@@ -53,7 +53,7 @@ concept ShapeIn = requires(const S& shape, const Corners<N>& corners, const Ray<
     { crossings<true>(shape, corners, ray, t) } -> Is<int>;
     { surface_of(shape, corners, ray, t, local, point, normal) } -> Is<void>;
     requires !S::has_corners || requires { { normal_of(shape, corners) } -> Is<Direction<N>>; };
-    requires !S::is_smooth || requires { { shading_normal(shape, corners, ray) } -> Is<Direction<N>>; };
+    requires !S::is_smooth || requires { { shading_normal(shape, corners, ray, normal) } -> Is<Direction<N>>; };
 };
 
 } // namespace qray

@@ -78,6 +78,19 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
                 return f(shape, kind, index);
             });
         });
+    } else if constexpr (E.flat_tree) {
+        const RejectRay<N> reject(ray);
+        ProjectedRay projected(ray);
+        walk(scene.entries.data, projected, limit, [&](Kind of_leaf, uint32_t place) __attribute__((always_inline)) {
+            return with_shape(scene, of_leaf, place, [&]<class S>(const S& shape, Kind kind, uint32_t index) __attribute__((always_inline)) {
+                bool missed;
+                if constexpr (S::has_corners)
+                    missed = surely_missed(shape, corners_of(scene), projected);
+                else
+                    missed = surely_missed(shape, reject);
+                return !missed && f(shape, kind, index);
+            });
+        });
     } else {
         const RejectRay<N> reject(ray);
         const auto ask = [&](const auto& shape, Kind kind, uint32_t index) __attribute__((always_inline)) {
@@ -135,7 +148,7 @@ QRAY_INLINE constexpr void keep_nearest(const Scene<N, E>& scene, const Ray<N>& 
 template <class N, Effects E>
 QRAY_INLINE constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit)
 {
-    if constexpr (E.tree || !N::is_fixed || (NarrowFixed<N> && has_wide_multiply))
+    if constexpr (E.tree || E.flat_tree || !N::is_fixed || (NarrowFixed<N> && has_wide_multiply))
         hit = {}; // or the compiler warns that it may be used unset
     else if constexpr (sizeof(void*) == 8)
         hit.kind = {}; // likewise on a desktop, where the rest costs q32 0.8 % more instructions

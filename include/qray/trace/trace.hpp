@@ -35,7 +35,7 @@ QRAY_INLINE constexpr Surface<N> surface_at(const Scene<N, E>& scene, const Ray<
     const auto at = [&]<class Shape>(const Shape& shape, Kind, uint32_t) __attribute__((always_inline)) {
         surface_of(shape, corners_of(scene), ray, hit.t, hit.local, q, g);
         if constexpr (Shape::is_smooth)
-            n = shading_normal(shape, corners_of(scene), ray);
+            n = shading_normal(shape, corners_of(scene), ray, g);
         else
             n = g;
         return true;
