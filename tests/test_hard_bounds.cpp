@@ -4,6 +4,10 @@
 #include "hostile/draw_random.hpp"
 #include "number_helpers.hpp"
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
 namespace {
 
 using namespace hostile;
@@ -32,12 +36,19 @@ void expect_bounded(uint64_t seed, bool energy)
 TYPED_TEST(BoundsTest, HostileScenesStayInRange) { expect_bounded<TypeParam>(1, false); }
 TYPED_TEST(BoundsTest, EnergyDoesNotGrow) { expect_bounded<TypeParam>(2, true); }
 
-// Scenes of `make soak-scenes` whose balls are so small that their radius has no square in float.
+// Scenes that `make soak-scenes` found, with balls so small that their radius has no square in float.
 TEST(Bounds, BallWithoutASquareInFloatDoesNotShine)
 {
+    qray::scene::Settings settings;
+    settings.depth = 6;
+    settings.cutoff = 0;
     SceneTally t;
-    for (const uint64_t scene : {6531u, 24361u, 24960u, 59839u, 67764u, 94158u, 99629u, 124809u})
-        draw_random<qray::Float>(4, 1, true, t, scene);
+    const auto folder = std::filesystem::path(__FILE__).parent_path() / "hostile" / "small_balls";
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        std::ifstream in(entry.path());
+        const std::string text((std::istreambuf_iterator<char>(in)), {});
+        draw_scene<qray::Float>(entry.path().string(), text, settings, true, t);
+    }
     EXPECT_EQ(t.accepted, 8u);
     EXPECT_EQ(t.negative, 0u) << t.first_fault;
     EXPECT_EQ(t.brighter, 0u) << t.first_fault;
@@ -47,7 +58,8 @@ TEST(Bounds, BallWithoutASquareInFloatDoesNotShine)
 TEST(Bounds, LightTooFarForASquareInFloatIsSeen)
 {
     using namespace qray;
-    const std::string text = "v from 0 0 5e-9 at 0 0 0 up 0 1 0 angle 10 hither 1 resolution 1 1\nl 0 4e14 3e14 0.5 0.5 0.5\n"
+    const std::string text = "v from 0 0 5e-9 at 0 0 0 up 0 1 0 angle 10 hither 1 resolution 1 1\n"
+                             "l 0 4e14 3e14 0.5 0.5 0.5\n"
                              "material colour 1 1 1 ambient 0 diffuse 1 highlight 0 shine 1 mirror 0 transmit 0 ior 1\n"
                              "disc 0 0 0 0 0 1 2e-9\n";
     scene::Error error;

@@ -26,47 +26,54 @@ struct CountRays {
 
 // The light of every sample must be in range, the number of rays within that of a binary tree of the greatest depth.
 template <class N>
-void draw_random(uint64_t seed, uint64_t count, bool energy, SceneTally& tally, uint64_t first = 0)
+void draw_scene(const std::string& name, const std::string& text, const qray::scene::Settings& settings, bool energy,
+                SceneTally& tally)
 {
     using namespace qray;
-    constexpr Effects effects = everything(6);
-    for (uint64_t i = first; i < first + count; i++) {
+    tally.scenes++;
+    scene::Error error;
+    auto& description = test::kept<scene::Description>();
+    auto& storage = test::kept<scene::Storage<N>>();
+    if (!scene::parse(name.c_str(), text.data(), text.size(), description, error)
+        || !scene::Builder<N>(description, settings, storage).build(error))
+        return;
+    tally.accepted++;
+    const auto s = storage.template view<everything(6)>();
+    const Camera<N>& c = s.camera;
+    for (int32_t k = 0; k < 4; k++) {
+        CountRays rays;
+        const auto light = trace(s, eye_ray(s, c.row(k / 2 == 0 ? -1 : 1) + c.right * (k % 2 == 0 ? -1 : 1)), rays);
+        const double scaled = std::ldexp(1, s.exposure);
+        const double r = exact<double>(light.x) * scaled, g = exact<double>(light.y) * scaled,
+                     b = exact<double>(light.z) * scaled;
+        tally.samples++;
+        const bool negative = !(r >= 0 && g >= 0 && b >= 0);
+        const double most = std::fmax(r, std::fmax(g, b));
+        // Each of some hundred roundings may be upward; in q16 by 2^-14, together by less than half a level of a byte.
+        const double excess = NarrowFixed<N> ? 0.5 / 255 : sizeof(light.x) == 8 ? 1e-9 : 1e-4;
+        const bool brighter = energy && most > 1 + excess;
+        const bool rays_over = rays.rays[2] + rays.rays[3] > (uint64_t{1} << settings.depth) - 2;
+        tally.negative += negative;
+        tally.brighter += brighter;
+        tally.too_many_rays += rays_over;
+        if (energy)
+            tally.most = std::fmax(tally.most, most);
+        if ((negative || brighter || rays_over) && tally.first_fault.empty())
+            tally.first_fault = name + " sample " + std::to_string(k) + ": light " + std::to_string(r) + " "
+                + std::to_string(g) + " " + std::to_string(b) + "\n" + text;
+    }
+}
+
+template <class N>
+void draw_random(uint64_t seed, uint64_t count, bool energy, SceneTally& tally)
+{
+    for (uint64_t i = 0; i < count; i++) {
         const uint64_t scene_seed = seed * 0x1000003 + i;
-        const std::string text = RandomScene(scene_seed).text(energy);
-        tally.scenes++;
-        scene::Error error;
-        auto& description = test::kept<scene::Description>();
-        auto& storage = test::kept<scene::Storage<N>>();
-        scene::Settings settings;
+        qray::scene::Settings settings;
         settings.depth = 1 + static_cast<uint32_t>(i % 6);
         settings.cutoff = i % 4 == 0 ? 0 : 0.0014;
-        if (!scene::parse("random", text.data(), text.size(), description, error)
-            || !scene::Builder<N>(description, settings, storage).build(error))
-            continue;
-        tally.accepted++;
-        const auto s = storage.template view<effects>();
-        const Camera<N>& c = s.camera;
-        for (int32_t k = 0; k < 4; k++) {
-            CountRays rays;
-            const auto light = trace(s, eye_ray(s, c.row(k / 2 == 0 ? -1 : 1) + c.right * (k % 2 == 0 ? -1 : 1)), rays);
-            const double scaled = std::ldexp(1, s.exposure);
-            const double r = exact<double>(light.x) * scaled, g = exact<double>(light.y) * scaled, b = exact<double>(light.z) * scaled;
-            tally.samples++;
-            const bool negative = !(r >= 0 && g >= 0 && b >= 0);
-            const double most = std::fmax(r, std::fmax(g, b));
-            // Each of some hundred roundings may be upward; in q16 by 2^-14, together by less than half a level of a byte.
-            const double excess = NarrowFixed<N> ? 0.5 / 255 : sizeof(light.x) == 8 ? 1e-9 : 1e-4;
-            const bool brighter = energy && most > 1 + excess;
-            const bool rays_over = rays.rays[2] + rays.rays[3] > (uint64_t{1} << settings.depth) - 2;
-            tally.negative += negative;
-            tally.brighter += brighter;
-            tally.too_many_rays += rays_over;
-            if (energy)
-                tally.most = std::fmax(tally.most, most);
-            if ((negative || brighter || rays_over) && tally.first_fault.empty())
-                tally.first_fault = "seed " + std::to_string(scene_seed) + " sample " + std::to_string(k) + ": light "
-                    + std::to_string(r) + " " + std::to_string(g) + " " + std::to_string(b) + "\n" + text;
-        }
+        const std::string text = RandomScene(scene_seed).text(energy);
+        draw_scene<N>("seed " + std::to_string(scene_seed), text, settings, energy, tally);
     }
 }
 

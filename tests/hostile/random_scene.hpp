@@ -1,10 +1,13 @@
 // Random scenes of hostile numbers, within what the parser accepts, as text.
 #pragma once
 
+#include <array>
 #include <cstdio>
+#include <iterator>
 #include <string>
 
 #include "numbers.hpp"
+#include "scene/shapes.hpp"
 
 namespace hostile {
 
@@ -23,12 +26,13 @@ public:
     {
         energy = with_energy;
         share = 1;
-        const Double3 from = point(), at = point();
-        s = "v from " + numbers(from) + " at " + numbers(at) + " up " + direction_text() + " angle "
-            + number(random.chance(0.1) ? random.logarithmic(1e-6, 179.9) : random.in(10, 120)) + " hither 1 resolution 2 2\n";
+        const std::string from = point(), at = point();
+        s = "v from " + from + " at " + at + " up " + direction() + " angle "
+            + number(random.chance(0.1) ? random.logarithmic(1e-6, 179.9) : random.in(10, 120))
+            + " hither 1 resolution 2 2\n";
         lights = random.below(energy ? 3 : 6);
         for (uint32_t i = 0; i < lights; i++) {
-            s += random.chance(0.3) ? "sun " + direction_text() : "l " + numbers(point());
+            s += random.chance(0.3) ? "sun " + direction() : "l " + point();
             // Together at most one half.
             const double most = energy ? 0.5 / lights : random.chance(0.1) ? 64 : 1;
             s += " " + number(random.in(0, most)) + " " + number(random.in(0, most)) + " " + number(most) + "\n";
@@ -47,6 +51,46 @@ public:
                 s += last; // twice the same
         }
         return s;
+    }
+
+    // What shapes are made of, as text: see src/scene/shape/host.hpp.
+    bool chance(double p) { return random.chance(p); }
+    uint32_t below(uint32_t n) { return random.below(n); }
+    std::string point() { return numbers(place()); }
+    std::string radius() { return number(length()); }
+    std::string direction()
+    {
+        if (random.chance(0.3)) {
+            const char* axes[] = {"0 1 0", "1 0 0", "0 0 -1", "1 1 0", "-3 4 0"};
+            return axes[random.below(5)];
+        }
+        using namespace qray::scene;
+        return numbers(hostile::direction(random) * random.logarithmic(1e-6, 1e6));
+    }
+    // Not the same, and as near as numbers go with this probability.
+    std::array<std::string, 2> two_points(double near)
+    {
+        using namespace qray::scene;
+        const Double3 a = place();
+        Double3 b = random.chance(near) ? a + Double3{0, length() + 1e-50, 0} : place();
+        if (largest(b - a) < 1e-50)
+            b = b + Double3{scale, 0, 0};
+        return {numbers(a), numbers(b)};
+    }
+    // Corners in a plane, more or less, some of them the same.
+    std::string figure(const char* word, uint32_t n, bool normals)
+    {
+        using namespace qray::scene;
+        const Double3 c = place(), a = place() - c, b = place() - c;
+        std::string text = word + (" " + std::to_string(n));
+        for (uint32_t i = 0; i < n; i++) {
+            const double turn = 2 * M_PI * i / n, r = random.in(0.3, 1);
+            const Double3 v = random.chance(0.05) ? c
+                : random.chance(wild)             ? place()
+                                                  : c + a * (r * std::cos(turn)) + b * (r * std::sin(turn));
+            text += "\n " + numbers(v) + (normals ? " " + direction() : "");
+        }
+        return text;
     }
 
 private:
@@ -78,28 +122,18 @@ private:
             default: return sign * random.logarithmic(1e-3, 1e3);
             }
         }
-        const double v = random.chance(0.3) ? static_cast<double>(static_cast<int>(random.below(9)) - 4) : random.in(-4, 4);
-        return v * scale;
+        return scale * (random.chance(0.3) ? static_cast<int>(random.below(9)) - 4 : random.in(-4, 4));
     }
-    Double3 point()
+    Double3 place()
     {
         using namespace qray::scene;
         return Double3{coordinate(), coordinate(), coordinate()} + around;
     }
-    double radius()
+    double length()
     {
         if (random.chance(wild))
             return random.chance(0.2) ? 0 : random.logarithmic(1e-60, 1e15);
         return scale * (random.chance(0.2) ? random.logarithmic(1e-9, 10) : random.in(0.1, 3));
-    }
-    std::string direction_text()
-    {
-        if (random.chance(0.3)) {
-            const char* axes[] = {"0 1 0", "1 0 0", "0 0 -1", "1 1 0", "-3 4 0"};
-            return axes[random.below(5)];
-        }
-        using namespace qray::scene;
-        return numbers(direction(random) * random.logarithmic(1e-6, 1e6));
     }
     std::string colour(double most)
     {
@@ -120,51 +154,30 @@ private:
                 w /= sum * (1 + 1e-9);
         const double shine = random.chance(0.2) ? 1e6 : random.chance(0.3) ? 0 : random.logarithmic(0.1, 1e4);
         const double ior = random.chance(0.1) ? 8 : random.chance(0.1) ? 0.125 : random.in(0.5, 2.5);
-        s += "material colour " + colour(1) + " ambient " + number(weights[0]) + " diffuse " + number(weights[1]) + " highlight "
-            + number(weights[2]) + " shine " + number(shine) + " mirror " + number(weights[3]) + " transmit "
+        s += "material colour " + colour(1) + " ambient " + number(weights[0]) + " diffuse " + number(weights[1])
+            + " highlight " + number(weights[2]) + " shine " + number(shine) + " mirror " + number(weights[3]) + " transmit "
             + number(weights[4]) + " ior " + number(ior) + "\n";
         if (random.chance(0.3)) {
-            const char* names[] = {"checker", "rings", "noise", "brick", "stripes", "gradient", "marble", "wood"};
-            const uint32_t k = random.below(8);
-            s += "texture " + std::string(names[k]) + " " + colour(1) + " " + number(std::fabs(coordinate()) + 1e-50)
-                + (k >= 4 ? " " + direction_text() : "") + "\n";
+            struct Named {
+                const char* name;
+                bool has_axis;
+            };
+#define QRAY_NAMED(Type, name, table) {#name, qray::Type<qray::Float>::has_axis},
+            constexpr Named textures[] = {QRAY_TEXTURES(QRAY_NAMED)};
+#undef QRAY_NAMED
+            const Named& t = textures[random.below(std::size(textures))];
+            s += "texture " + std::string(t.name) + " " + colour(1) + " " + number(std::fabs(coordinate()) + 1e-50)
+                + (t.has_axis ? " " + direction() : "") + "\n";
         }
     }
     void object()
     {
-        using namespace qray::scene;
-        switch (random.below(6)) {
-        case 0: last = "s " + numbers(point()) + " " + number(radius()); break;
-        case 1: {
-            const Double3 a = point();
-            Double3 b = random.chance(0.1) ? a + Double3{0, radius() + 1e-50, 0} : point();
-            if (largest(b - a) < 1e-50)
-                b = b + Double3{scale, 0, 0};
-            const double r = radius();
-            last = "c " + numbers(a) + " " + number(r) + " " + numbers(b) + " "
-                + number(random.chance(0.3) ? r : random.chance(0.2) ? 0 : radius());
-            break;
-        }
-        case 2: last = "disc " + numbers(point()) + " " + direction_text() + " " + number(radius()); break;
-        case 3: last = "plane " + numbers(point()) + " " + direction_text(); break;
-        case 4: corners(false); break;
-        default: corners(true); break;
-        }
-        last += "\n";
+#define QRAY_ONE(Type, name, table) +1
+        constexpr uint32_t kinds = QRAY_SHAPES(QRAY_ONE);
+#undef QRAY_ONE
+        const auto shape = static_cast<qray::Kind>(random.below(kinds));
+        last = qray::scene::with_host(shape, [this](auto host) { return host.random(*this); }) + "\n";
         s += last;
-    }
-    // In a plane, more or less, some of them the same.
-    void corners(bool patch)
-    {
-        using namespace qray::scene;
-        const Double3 c = point(), a = point() - c, b = point() - c;
-        const uint32_t n = 3 + random.below(patch ? 3 : 8);
-        last = (patch ? "pp " : "p ") + std::to_string(n);
-        for (uint32_t i = 0; i < n; i++) {
-            const double turn = 2 * M_PI * i / n, r = random.in(0.3, 1);
-            const Double3 v = random.chance(0.05) ? c : random.chance(wild) ? point() : c + a * (r * std::cos(turn)) + b * (r * std::sin(turn));
-            last += "\n " + numbers(v) + (patch ? " " + direction_text() : "");
-        }
     }
 };
 
