@@ -10,7 +10,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, "src/study")
-import figures  # noqa: E402
+import pictures  # noqa: E402
 from programs import environment  # noqa: E402
 
 SCENE, BOARD, SIZE = "build/test_plan.nff", "rv32_virt", "200x150"
@@ -49,7 +49,7 @@ def rows(text):
 def picture(*options):
     path = "build/test_plan.ppm"
     subprocess.run(["build/qray", SCENE, "-q", "-s", SIZE, "-o", path, *options], check=True)
-    return figures.read_ppm(path)[2]
+    return pictures.read(path).ravel().tolist()
 
 
 class Plan(unittest.TestCase):

@@ -1,12 +1,11 @@
 """The study's plots."""
 
-import math
 import os
-import subprocess
 
 import matplotlib
 import matplotlib.pyplot as plt
 
+import pictures
 import runs
 import settings
 
@@ -145,40 +144,31 @@ def samples(study, path):
          "Diamonds: adaptive sampling, at the mean of its samples. Dashed: time that grows as the samples do.")
 
 
-def read_ppm(path):
-    with open(path, "rb") as file:
-        data = file.read()
-    width, height = map(int, data.split(b"\n")[1].split())
-    return width, height, data[-3 * width * height:]
-
-
 def panel(study, path):
     """The showcase in each number system beside its error, and what one sample costs."""
     size = "64x48" if study.quick else "160x120"
 
-    def draw(name, *options):
-        to = f"{study.folder}/panel-{name}.ppm"
-        done = subprocess.run(["build/qray", "scenes/showcase.nff", "-q", "-s", size, "-o", to, *options],
-                              capture_output=True)
-        return plt.imread(to).astype(int) if done.returncode == 0 else None
+    def draw(number, samples="1", depth=5):
+        to = f"{study.folder}/panel.ppm"
+        setting = number, samples, depth, settings.DEFAULT[3]
+        return pictures.draw("scenes/showcase.nff", size, setting, to=to) and pictures.read(to)
 
-    exact, best = draw("double", "-n", "double"), draw("best", "-n", "double", "-r", "256", "-d", "8")
-    pictures = [(n, draw(n, "-n", n), exact, "double") for n in runs.numbers() if n != "double"]
-    pictures += [("q32, 1 sample", draw("q32", "-n", "q32"), best, "256 samples"),
-                 ("q32, 16 samples", draw("many", "-n", "q32", "-r", "16"), best, "256 samples")]
-    pictures = [p for p in pictures if p[1] is not None]
-    figure, plots = plt.subplots(2, len(pictures), figsize=(2.2 * len(pictures), 4.4))
-    for (above, below), (name, picture, truth, against) in zip(plots.T, pictures):
-        off = abs(picture - truth)
-        rms = math.sqrt((off ** 2).mean())
-        above.set_title(f"{name}: " + (f"{20 * math.log10(255 / rms):.0f} dB" if rms > 0 else "equal"), fontsize=9)
+    exact, best = draw("double"), draw("double", "256", 8)
+    shown = [(n, draw(n), exact, "double") for n in runs.numbers() if n != "double"]
+    shown += [("q32, 1 sample", draw("q32"), best, "256 samples"),
+              ("q32, 16 samples", draw("q32", "16"), best, "256 samples")]
+    shown = [p for p in shown if p[1] is not None]
+    figure, plots = plt.subplots(2, len(shown), figsize=(2.2 * len(shown), 4.4))
+    for (above, below), (name, picture, truth, against) in zip(plots.T, shown):
+        apart = pictures.errors(picture, truth)
+        above.set_title(f"{name}: " + (f"{apart['psnr']:.0f} dB" if apart["rms"] else "equal"), fontsize=9)
         above.imshow(picture, interpolation="none")
         below.set_title(f"off {against} by", fontsize=8)
-        shown = below.imshow(off.max(2), interpolation="none", cmap="inferno",
+        errors = below.imshow(abs(picture - truth).max(2), interpolation="none", cmap="inferno",
                              norm=matplotlib.colors.SymLogNorm(1, vmin=0, vmax=255))
         above.axis("off")
         below.axis("off")
-    bar = figure.colorbar(shown, ax=plots.ravel().tolist(), orientation="horizontal", fraction=0.04, pad=0.02,
+    bar = figure.colorbar(errors, ax=plots.ravel().tolist(), orientation="horizontal", fraction=0.04, pad=0.02,
                           ticks=[0, 1, 4, 16, 64, 255], format="%d", label="levels")
     bar.minorticks_off()
     save(figure, path, "The showcase in each number system, and how far it is off")

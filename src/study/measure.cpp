@@ -1,220 +1,100 @@
-// Error and time of one scene's picture on this machine, for any settings, as CSV.
-//   measure [-a] SCENE WxH NUMBER:SAMPLES:DEPTH:CUTOFF ...     SAMPLES is a square, or aLEVELS,THRESHOLD
-// Arithmetic error is against double at the same settings, total error against double with 256 samples and depth
-// 8; with -a that is left out, which takes the longest. Time is that of one thread, as a ratio to float's of the
-// same settings, each the best of several tries in turn.
+// Rays and errors on combs of a picture's pixels (scattered.hpp), as JSON.
+//   measure FIRST-LAST OPTIONS SCENE , OPTIONS SCENE , ...     options of qray, for one scene in one size
+// A line says what the combs are, and one for each picture but the first what it has in combs FIRST to LAST - 1: rays,
+// the sum of squared differences to the first picture, and pixels whose centre shows another object than there.
+// Nothing of a picture that does not fit its number system.
 #include "../cli/input.hpp"
 #include "../cli/renderer.hpp"
-#include "errors.hpp"
 #include "scattered.hpp"
 
+#include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <time.h>
+
+#include <iterator>
 
 namespace qray::study {
 
 namespace {
 
-using cli::Built;
 using cli::RayCounts;
-using cli::Renderer;
-using scene::Settings;
 
 constexpr uint32_t max_pixels = 640 * 480;
 scene::Description description;
-uint8_t total_truth[3 * max_pixels], truth[3 * max_pixels], picture[3 * max_pixels];
-uint32_t seen[2][max_pixels]; // places in the scene file, or 0xfffff
 
-[[noreturn]] void fail(const char* text, const char* what)
-{
-    fprintf(stderr, "measure: %s%s\n", text, what);
-    exit(1);
-}
+struct Pixels {
+    uint8_t rgb[3 * max_pixels];
+    uint32_t objects[max_pixels]; // what the ray through each pixel's centre sees first, by its tag
+} truth, drawn;
 
-// What the ray through each pixel's centre sees first.
+// A comb's pixels, from `to` on. Returns the rays.
 template <class N>
-void see(uint32_t* places)
+uint64_t draw(const Scattered& combs, uint32_t k, Pixels& pixels, size_t to)
 {
-    constexpr Effects everywhere = everything(Settings::max_depth);
-    const auto view = cli::storage_of<N>().template view<everywhere>();
+    const auto view = cli::storage_of<N>().template view<everything(scene::Settings::max_depth)>();
     const Camera<N>& c = view.camera;
-    const int32_t n = c.grid;
-    for (int32_t j = 0; j < c.height; j++)
-        for (int32_t i = 0; i < c.width; i++) {
-            Hit<N> hit;
-            const auto at = c.row(2 * n * j + n - n * c.height) + c.right * (2 * n * i + n - n * c.width);
-            nearest(view, eye_ray(view, at), hit);
-            *places++ = hit.tag.place();
-        }
-}
-
-// A comb's pixels.
-template <class N>
-void comb(const Scattered& combs, uint32_t k, uint8_t* rgb, RayCounts& counts)
-{
-    const auto view = cli::storage_of<N>().template view<everything(Settings::max_depth)>();
-    const Scattered::Comb at = combs(k);
-    for (uint32_t i = 0; i < combs.length(); i++)
-        Rgb888::put(render_pixel(view, at.x + i * combs.stride(), at.y, counts), rgb + 3 * i);
-}
-
-struct System {
-    const char* name;
-    void (*see)(uint32_t* places);
-    void (*comb)(const Scattered&, uint32_t, uint8_t* rgb, RayCounts&);
-};
-constexpr System systems[] = {{"q16", see<q16>, comb<q16>},
-                              {"q32", see<q32>, comb<q32>},
-                              {"float", see<Float>, comb<Float>},
-                              {"double", see<Double>, comb<Double>}};
-
-int index_of(const char* name, size_t length)
-{
-    for (size_t i = 0; i < sizeof cli::renderers / sizeof *cli::renderers; i++)
-        if (strlen(cli::number_names[i]) == length && strncmp(cli::number_names[i], name, length) == 0)
-            return static_cast<int>(i);
-    fail("no such number system: ", name);
-}
-
-const Renderer& renderer(const char* name) { return *cli::renderers[index_of(name, strlen(name))]; }
-
-double now()
-{
-    timespec t{};
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-struct Drawn {
+    const auto [x, y] = combs(k);
     RayCounts counts;
-    double seconds;
-};
+    for (uint32_t i = 0; i < combs.length(); i++, to++) {
+        const uint32_t column = x + i * combs.stride();
+        Rgb888::put(render_pixel(view, column, y, counts), pixels.rgb + 3 * to);
+        const auto centre = [&c](uint32_t place, uint32_t places) {
+            return c.grid * static_cast<int32_t>(2 * place + 1 - places);
+        };
+        Hit<N> hit;
+        nearest(view, eye_ray(view, c.row(centre(y, c.height)) + c.right * centre(column, c.width)), hit);
+        pixels.objects[to] = hit.tag.place();
+    }
+    return counts.rays[0] + counts.rays[1] + counts.rays[2] + counts.rays[3];
+}
+constexpr uint64_t (*draw_in[])(const Scattered&, uint32_t, Pixels&, size_t) = {draw<q16>, draw<q32>, draw<Float>,
+                                                                               draw<Double>};
+static_assert(std::size(draw_in) == std::size(cli::number_names));
 
-// False where the scene does not fit the number system.
-bool build(const Renderer& with, const Settings& settings)
+// [rays, squares, other objects]
+void print_comb(uint64_t rays, size_t first, size_t length)
 {
-    Built built{};
+    uint64_t squares = 0;
+    uint32_t others = 0;
+    for (size_t i = 3 * first; i < 3 * (first + length); i++) {
+        const int difference = drawn.rgb[i] - truth.rgb[i];
+        squares += static_cast<uint64_t>(difference * difference);
+    }
+    for (size_t i = first; i < first + length; i++)
+        others += drawn.objects[i] != truth.objects[i];
+    printf("[%" PRIu64 ", %" PRIu64 ", %u]", rays, squares, others);
+}
+
+// Returns the status to exit with.
+int measure(const cli::Options& options, uint32_t first, uint32_t last, bool is_first)
+{
+    cli::Built built{};
     scene::Error error;
-    return with.build(description, settings, built, error);
-}
-
-Drawn draw(const Renderer& with, const Settings& settings, uint8_t* to)
-{
-    Drawn d{};
-    const double start = now();
-    with.rows(0, settings.height, to, d.counts);
-    d.seconds = now() - start;
-    return d;
-}
-
-// NUMBER:SAMPLES:DEPTH:CUTOFF; returns the number's index.
-int read_setting(const char* text, Settings& s)
-{
-    const char* colon = strchr(text, ':');
-    char samples[32];
-    unsigned depth = 0, levels = 0;
-    if (colon == nullptr || sscanf(colon, ":%31[^:]:%u:%lf", samples, &depth, &s.cutoff) != 3)
-        fail("expected NUMBER:SAMPLES:DEPTH:CUTOFF, not ", text);
-    s.depth = depth;
-    if (samples[0] == 'a') {
-        if (sscanf(samples, "a%u,%lf", &levels, &s.threshold) < 1)
-            fail("expected aLEVELS,THRESHOLD, not ", samples);
-        s.levels = levels;
-    } else {
-        s.grid = static_cast<uint32_t>(lround(sqrt(atof(samples))));
+    const int number = static_cast<int>(options.number);
+    if (!cli::renderers[number]->build(description, options.settings, built, error)) {
+        puts("[]");
+        return 0;
     }
-    return index_of(text, static_cast<size_t>(colon - text));
-}
-
-void measure(const char* scene, const char* setting, Settings s, bool whole)
-{
-    const int number = read_setting(setting, s);
-    const Renderer& own = *cli::renderers[number];
-    const Renderer& exact = renderer("double");
-    const Renderer& single = renderer("float");
-    if (!build(own, s)) {
-        printf("%s,%u,%u,%s,refused\n", scene, s.width, s.height, setting);
-        return;
-    }
-    build(exact, s);
-    build(single, s);
-    draw(exact, s, truth);
-    double own_time = 1e9, single_time = 1e9;
-    for (int i = 0; i < 3; i++) {
-        single_time = fmin(single_time, draw(single, s, picture).seconds);
-        own_time = fmin(own_time, draw(own, s, picture).seconds);
-    }
-    const Drawn drawn = draw(own, s, picture);
-    const size_t pixels = size_t{s.width} * s.height;
-    Errors arithmetic, total;
-    arithmetic.add(picture, truth, pixels);
-    total.add(picture, total_truth, pixels);
-    long other = -1;
-    for (const System& system : systems)
-        if (strcmp(system.name, cli::number_names[number]) == 0) {
-            system.see(seen[0]);
-            see<Double>(seen[1]);
-            other = 0;
-            for (size_t i = 0; i < pixels; i++)
-                other += seen[0][i] != seen[1][i];
-        }
-    uint64_t rays = 0;
-    for (uint64_t n : drawn.counts.rays)
-        rays += n;
-    printf("%s,%u,%u,%s,%llu,%.3f", scene, s.width, s.height, setting, static_cast<unsigned long long>(rays),
-           own_time / single_time);
-    for (const Errors* e : {&arithmetic, &total})
-        if (whole || e == &arithmetic)
-            printf(",%.3f,%.4f,%d,%.6f", e->psnr(), e->rms(), e->largest, e->off_share());
-        else
-            fputs(",nan,nan,nan,nan", stdout);
-    printf(",%ld\n", other);
-}
-
-// `systems` are in the order of cli::renderers.
-void measure_combs(const char* range, const char* const* settings, Settings best)
-{
-    uint32_t first = 0, last = 0;
-    if (sscanf(range, "%u-%u", &first, &last) != 2 || last < first)
-        fail("expected FIRST-LAST, not ", range);
-    Built built{};
-    scene::Error error;
-    best.grid = 8;
-    best.depth = 8;
-    renderer("double").build(description, best, built, error);
     const Scattered combs{built.width, built.height};
-    last = last < combs.count() ? last : combs.count();
     const size_t length = combs.length();
-    if (size_t{last - first} * length > max_pixels)
-        fail("too many combs: ", range);
-    printf("{\"width\": %u, \"height\": %u, \"combs\": %u, \"length\": %zu}\n", built.width, built.height,
-           combs.count(), length);
-    RayCounts counts;
-    for (uint32_t k = first; k < last; k++)
-        systems[index_of("double", 6)].comb(combs, k, truth + 3 * length * (k - first), counts);
-    for (; *settings != nullptr; settings++) {
-        Settings s = best;
-        s.grid = 1;
-        const int number = read_setting(*settings, s);
-        if (!cli::renderers[number]->build(description, s, built, error)) {
-            printf("{\"setting\": \"%s\", \"spawns\": 0, \"of\": []}\n", *settings);
+    last = last < combs.count() ? last : combs.count();
+    if (last > first && (last - first) * length > max_pixels)
+        return cli::bad_options("more than %u pixels", max_pixels);
+    if (is_first)
+        printf("{\"width\": %u, \"height\": %u, \"combs\": %u, \"length\": %zu}\n", built.width, built.height,
+               combs.count(), length);
+    else
+        putchar('[');
+    for (uint32_t k = first; k < last; k++) {
+        const size_t to = (k - first) * length;
+        const uint64_t rays = draw_in[number](combs, k, is_first ? truth : drawn, to);
+        if (is_first)
             continue;
-        }
-        printf("{\"setting\": \"%s\", \"spawns\": %d, \"of\": [", *settings, built.effects.spawns());
-        for (uint32_t k = first; k < last; k++) {
-            counts = {};
-            systems[number].comb(combs, k, picture, counts);
-            Errors errors;
-            errors.add(picture, truth + 3 * length * (k - first), length);
-            uint64_t rays = 0;
-            for (uint64_t n : counts.rays)
-                rays += n;
-            printf("%s[%llu, %.0f]", k == first ? "" : ", ", static_cast<unsigned long long>(rays), errors.squares);
-        }
-        puts("]}");
+        print_comb(rays, to, length);
+        fputs(k + 1 < last ? ", " : "", stdout);
     }
+    fputs(is_first ? "" : "]\n", stdout);
+    return 0;
 }
 
 } // namespace
@@ -223,36 +103,23 @@ void measure_combs(const char* range, const char* const* settings, Settings best
 
 int main(int argc, char** argv)
 {
-    using namespace qray::study;
-    Settings s;
-    const char* const mode = argc > 1 && argv[1][0] == '-' ? argv[1] : "";
-    const char* const range = strcmp(mode, "-p") == 0 && argc > 2 ? argv[2] : nullptr;
-    const bool whole = *mode == 0;
-    const int used = (*mode != 0) + (range != nullptr);
-    argv += used;
-    argc -= used;
-    const bool sized = argc > 2 && sscanf(argv[2], "%ux%u", &s.width, &s.height) == 2;
-    if (argc < 4 || (range == nullptr && (!sized || s.width * s.height > max_pixels)))
-        fail("usage: measure [-a | -p FIRST-LAST] SCENE WxH NUMBER:SAMPLES:DEPTH:CUTOFF ...", "");
-    qray::scene::Error error;
-    if (!qray::cli::read_scene(argv[1], description, error))
-        fail(error.text, "");
-    if (range != nullptr) {
-        measure_combs(range, argv + 3, s);
-        return 0;
-    }
-    Settings best = s;
-    best.grid = 16;
-    best.depth = 8;
-    if (whole) {
-        build(renderer("double"), best);
-        draw(renderer("double"), best, total_truth);
-    }
-    puts("scene,width,height,setting,rays,time/float,arithmetic psnr,arithmetic rms,arithmetic largest,"
-         "arithmetic off,total psnr,total rms,total largest,total off,other objects");
-    for (int i = 3; i < argc; i++) {
-        measure(argv[1], argv[i], s, whole);
-        fflush(stdout);
+    using namespace qray;
+    uint32_t first = 0, last = 0;
+    if (argc < 3 || sscanf(argv[1], "%u-%u", &first, &last) != 2)
+        return cli::bad_options("usage: measure FIRST-LAST OPTIONS SCENE , OPTIONS SCENE , ...");
+    for (int at = 1, end; at < argc; at = end) { // of the range or a comma, and of the next comma
+        end = at + 1;
+        while (end < argc && strcmp(argv[end], ",") != 0)
+            end++;
+        cli::Options options;
+        scene::Error error;
+        int status = cli::read_options(cli::Command::draw, end - at, argv + at, options);
+        if (status == cli::go_on && at == 1 && !cli::read_scene(options.scene, study::description, error))
+            status = cli::bad_options("%s", error.text);
+        if (status == cli::go_on)
+            status = study::measure(options, first, last, at == 1);
+        if (status != 0)
+            return status;
     }
     return 0;
 }

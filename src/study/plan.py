@@ -7,27 +7,24 @@ are those of firmware that is built for the whole picture. What was measured is 
 that goes into it."""
 
 import concurrent.futures
-import hashlib
-import json
 import math
 import os
+import statistics
 import subprocess
 import sys
 import time
 
 sys.dont_write_bytecode = True
 import cycles  # noqa: E402
+import pictures  # noqa: E402
 import runs  # noqa: E402
-from programs import output_of  # noqa: E402
 from settings import options  # noqa: E402
 
 FOLDER = "build/plan"
-MEASURE = "build/study/measure"
-JOBS = 2
 SAMPLES = ["1", "4", "9", "16", "a2,0.0625", "a3,0.03125"]
 DEPTHS = [5, 3, 2, 1]
 CUTOFF = 0.0014
-BETTER = "-n double -r 64 -d 8"  # what measure.cpp compares with
+BETTER = ("double", "64", 8, CUTOFF)  # what the others are compared with
 DRAWING = 10  # seconds for pixels
 BUILDING = 48  # seconds after which no firmware is begun
 FIRST_PIXELS, WANTED_PIXELS = 1000, 24000  # to begin with, and at least where there is time
@@ -87,30 +84,23 @@ class Question:
 
 
 class Pixels:
-    """What the desktop finds: {setting: [[rays, squares of errors] of each comb of pixels]}."""
+    """What the desktop finds: {setting: what measure.cpp says of each comb of pixels}."""
 
     def __init__(self, question, settings):
-        with open(question.scene, "rb") as file:
-            text = file.read()
-        own = (f"src/study/{name}" for name in ("measure.cpp", "scattered.hpp", "errors.hpp"))
-        with open("build/obj/flags", "rb") as file:
-            key = [runs.tree_hash("include", "src/scene", *own).encode(), file.read(), text, question.size.encode()]
-        self.path = f"{FOLDER}/{hashlib.sha256(b'@'.join(key)).hexdigest()[:24]}.pixels.json"
+        own = (f"src/study/{name}" for name in ("measure.cpp", "scattered.hpp"))
+        key = runs.hash_of(runs.tree_hash("include", "src/scene", *own), runs.text_of("build/obj/flags"),
+                           runs.text_of(question.scene), question.size)
+        self.path = f"{FOLDER}/{key}.pixels.json"
         self.question = question
-        self.known, self.head = {}, None
-        if os.path.exists(self.path):
-            with open(self.path) as file:
-                self.head, known = json.load(file)
-                self.known = {tuple(s): of for s, of in known}
-        else:
-            self.measure(settings, 0, 1)
+        self.head, known = runs.kept(self.path) or (None, [])
+        self.known = {tuple(s): of for s, of in known}
+        if self.head is None:
+            self.measure([], 0, 1)
 
     def measure(self, settings, first, last):
         """Combs first to last - 1."""
-        words = ["{}:{}:{}:{}".format(*s) for s in settings]
-        out = output_of(MEASURE, "-p", f"{first}-{last}", self.question.scene, self.question.size, *words)
-        self.head, *found = map(json.loads, out.splitlines())
-        return {s: f["of"] for s, f in zip(settings, found)}
+        self.head, *found = runs.measure(first, last, self.question.scene, self.question.size, BETTER, *settings)
+        return dict(zip(settings, found))
 
     def draw(self, settings, count):
         """From now on, judges by so many combs, and by these settings."""
@@ -121,34 +111,28 @@ class Pixels:
         for first, those in short.items():
             if first >= count:
                 continue
-            with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
+            with concurrent.futures.ThreadPoolExecutor(runs.JOBS) as pool:
                 middle = (first + count + 1) // 2
                 parts = list(pool.map(lambda r: self.measure(those, *r), [(first, middle), (middle, count)]))
             for s in those:
                 self.known[s] = self.known.get(s, []) + parts[0][s] + parts[1][s]
-        with open(self.path + ".part", "w") as file:
-            json.dump([self.head, list(self.known.items())], file)
-        os.replace(self.path + ".part", self.path)
+        runs.keep(self.path, [self.head, list(self.known.items())])
 
     def rays(self, setting):
         """Of the whole picture."""
         of = self.known[setting][:self.count]
-        return sum(r for r, _ in of) / len(of) / self.head["length"] * self.head["width"] * self.head["height"]
-
-    def mean_square(self, setting):
-        of = self.known[setting][:self.count]
-        return sum(s for _, s in of) / len(of) / self.head["length"] / 3
+        return sum(rays for rays, *_ in of) / len(of) / self.head["length"] * self.head["width"] * self.head["height"]
 
     def decibels(self, setting):
-        mean = self.mean_square(setting)
-        return min(99, 10 * math.log10(255 ** 2 / mean)) if mean else 99
+        of = self.known[setting][:self.count]
+        return pictures.decibels(sum(squares for _, squares, _ in of) / len(of) / self.head["length"] / 3)
 
     def is_certain(self, setting):
         """Are rays and dB known as well as is wanted?"""
         def doubt(values):
-            mean, n = sum(values) / len(values), len(values)
-            return mean and math.sqrt(sum((v - mean) ** 2 for v in values) / n / n) / mean
-        rays, squares = map(doubt, zip(*self.known[setting][:self.count]))
+            mean = statistics.mean(values)
+            return mean and statistics.pstdev(values) / math.sqrt(len(values)) / mean
+        rays, squares, _ = map(doubt, zip(*self.known[setting][:self.count]))
         return rays < CERTAIN_RAYS and squares * 10 / math.log(10) < CERTAIN
 
 
@@ -187,7 +171,7 @@ class Plan:
             if time.monotonic() - start < BUILDING or pair[1].is_known(self.inputs):
                 pair[1].perform(self.inputs)
                 done.append(pair)
-        with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
+        with concurrent.futures.ThreadPoolExecutor(runs.JOBS) as pool:
             list(pool.map(one, todo))
         return done
 
@@ -204,11 +188,7 @@ class Plan:
 
     def rays_at(self, setting, size):
         """As the desktop counts them."""
-        number, samples, depth, cutoff = setting
-        sampling = ["-a", samples[1:]] if samples[0] == "a" else ["-r", samples]
-        done = subprocess.run(["build/qray", self.question.scene, "-q", "--stats", "-s", size, "-n", number, *sampling,
-                               "-d", str(depth), "--cutoff", cutoff, "-o", "/dev/null"], capture_output=True, text=True)
-        return next(int(line.split()[1]) for line in done.stderr.splitlines() if line.startswith("rays:"))
+        return pictures.draw(self.question.scene, size, setting)["rays"]
 
     def learn(self, setting, run):
         """From a run: what a ray takes."""
@@ -317,7 +297,7 @@ def table(plan, frontier, chosen):
         print(f"without {n}: {why}")
     if not frontier:
         return
-    print(f"dB: against `build/qray {q.scene} {BETTER} -s {plan.size}`, by {plan.pixels.count * head['length']} of "
+    print(f"dB: against `build/qray {q.scene} {' '.join(pictures.words(BETTER))} -s {plan.size}`, by {plan.pixels.count * head['length']} of "
           f"{head['width'] * head['height']} pixels; 99 is no difference")
     if q.mhz:
         known = ", ".join(f"{n} {c:.2f}" for n, c in plan.cycles.items() if n in [s[0] for s in frontier])

@@ -14,10 +14,12 @@ import threading
 import time
 
 import cycles
+from pictures import words
 from programs import environment, fail, message_of, output_of
 from settings import BOARDS, board_facts, boards, numbers  # noqa: F401
 
 CACHE = "build/study/cache"
+JOBS = min(2, len(os.sched_getaffinity(0)))
 OPTIONS = ("SAMPLES", "ADAPTIVE", "DEPTH", "CUTOFF")
 
 
@@ -31,6 +33,37 @@ def tree_hash(*folders):
                 with open(path, "rb") as file:
                     digest.update(path.encode() + b"\0" + file.read() + b"\0")
     return digest.hexdigest()
+
+
+def keep(path, what):
+    """Writes JSON that appears only whole, whoever else writes it."""
+    part = f"{path}.{os.getpid()}.{threading.get_ident()}"
+    with open(part, "w") as file:
+        json.dump(what, file)
+    os.replace(part, path)
+
+
+def kept(path):
+    """What was kept there, or None."""
+    if os.path.exists(path):
+        with open(path) as file:
+            return json.load(file)
+
+
+def hash_of(*what):
+    return hashlib.sha256(json.dumps(what).encode()).hexdigest()[:24]
+
+
+def text_of(path):
+    with open(path, errors="surrogateescape") as file:
+        return file.read()
+
+
+def measure(first, last, scene, size, *settings):
+    """What measure.cpp says of combs first to last - 1, compared with the first setting's."""
+    own = [[*words(s), *([] if size == "-" else ["-s", size]), scene, ","] for s in settings]
+    out = output_of("build/study/measure", f"{first}-{last}", *sum(own, [])[:-1])
+    return [json.loads(line) for line in out.splitlines()]
 
 
 class Inputs:
@@ -72,11 +105,9 @@ class Run:
         return f"{board} {self.number} {name} {self.size}{options}{' profile' * self.profile}"
 
     def key(self, inputs):
-        with open(self.scene, "rb") as file:
-            scene = hashlib.sha256(file.read()).hexdigest()
-        what = [inputs.sources, inputs.compiler(self.board), self.board, scene, self.number, self.size,
-                self.profile and inputs.tracing, self.rays, self.build_only, sorted(self.options.items())]
-        return hashlib.sha256(json.dumps(what).encode()).hexdigest()[:24]
+        return hash_of(inputs.sources, inputs.compiler(self.board), self.board, text_of(self.scene), self.number,
+                       self.size, self.profile and inputs.tracing, self.rays, self.build_only,
+                       sorted(self.options.items()))
 
     def command(self, name):
         target = "profile" if self.profile else "size" if self.build_only else "run"
@@ -90,9 +121,8 @@ class Run:
     def perform(self, inputs):
         key = self.key(inputs)
         path = f"{CACHE}/{key}.json"
-        if os.path.exists(path):
-            with open(path) as file:
-                self.result = json.load(file)
+        self.result = kept(path)
+        if self.result is not None:
             return
         name = f"study-{key}"
         if self.profile:
@@ -105,9 +135,7 @@ class Run:
             return
         for left in glob.glob(f"build/{self.board}/{name}-{self.number}*"):
             shutil.rmtree(left) if os.path.isdir(left) else os.remove(left)
-        with open(f"{path}.{threading.get_ident()}", "w") as file:
-            json.dump(self.result, file)
-        os.replace(f"{path}.{threading.get_ident()}", path)
+        keep(path, self.result)
 
     def does_not_fit(self):
         """The scene into the number system, or its firmware into the board."""
@@ -123,7 +151,7 @@ class Run:
         return {k: int(v) if v == int(v) else v for k, v in values.items()}
 
 
-def perform(runs, quiet=False, inputs=None):
+def perform(runs, inputs=None):
     """Measures all, two at a time; shows progress and the time left."""
     os.makedirs(CACHE, exist_ok=True)
     inputs = inputs or Inputs()
@@ -132,22 +160,19 @@ def perform(runs, quiet=False, inputs=None):
     for run in runs:
         if run not in todo:
             run.perform(inputs)
-    if todo and not quiet:
+    if todo:
         print(f"{len(todo)} firmware runs, {len(runs) - len(todo)} more known", file=sys.stderr, flush=True)
-    jobs = min(2, len(os.sched_getaffinity(0)))
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+    with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
         waiting = {pool.submit(run.perform, inputs): run for run in todo}
         try:
             for future in concurrent.futures.as_completed(waiting):
                 future.result()
                 done += 1
                 left = (time.monotonic() - start) / done * (len(todo) - done)
-                if not quiet:
-                    print(f"{done:4}/{len(todo)}  {left:5.0f} s left  {waiting[future].describe()}",
-                          file=sys.stderr, flush=True)
+                print(f"{done:4}/{len(todo)}  {left:5.0f} s left  {waiting[future].describe()}",
+                      file=sys.stderr, flush=True)
         except BaseException:
-            for future in waiting:
-                future.cancel()
+            pool.shutdown(cancel_futures=True)
             raise
     for what, message in failures:
         print(f"failed: {what}: {message}", file=sys.stderr)

@@ -4,7 +4,7 @@
 #   make report                 measure again what README.md's tables between markers say, and write them
 STUDY := src/study
 
-# The desktop's part: the command's own kernels.
+# The desktop's part.
 MEASURE := build/study/measure
 build/study/%: build/obj/$(STUDY)/%.o $(filter-out %/main.o,$(COMMAND))
 	@mkdir -p $(@D)

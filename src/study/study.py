@@ -5,9 +5,8 @@ small pictures; error on larger ones of the same scene and settings, on this mac
 same bytes. study.py [quick]: one scene, small pictures, few settings"""
 
 import csv
+import functools
 import glob
-import hashlib
-import json
 import math
 import os
 import subprocess
@@ -15,15 +14,16 @@ import sys
 
 sys.dont_write_bytecode = True
 import figures  # noqa: E402
+import pictures  # noqa: E402
 import runs  # noqa: E402
 from settings import DEFAULT, STUDIED as BOARDS, options  # noqa: E402
 
 FOLDER = "build/study"
-MEASURE = FOLDER + "/measure"
+BEST = ("double", "256", 8, DEFAULT[3])  # what total errors are against
 # Scenes of the boards, and the size of their pictures there.
 SCENES = {"scenes/floor.nff": "32x24", "scenes/glass.nff": "24x18", "scenes/showcase.nff": "24x18"}
 ERROR_SIZE = "160x120"
-ERRORS = ["psnr", "rms", "largest", "off"]
+DIALS = ["number", "samples", "depth", "cutoff"]
 
 
 def settings(quick=False):
@@ -60,39 +60,43 @@ def board_flags(board):
     return f"{facts['cpu']} {facts['optimise']} -std=c++20 -ffreestanding -ffp-contract=off"
 
 
-def number(text):
-    try:
-        return float(text)
-    except ValueError:
-        return text
-
-
 def desktop(scene, size, wanted, total=True):
     """{setting: {rays, time/float, arithmetic psnr, ..., other objects}}, or {} where it does not fit."""
-    with open(scene, "rb") as file:
-        text = file.read()
-    key = hashlib.sha256(json.dumps([
-        runs.tree_hash("include", "src/scene", "src/study/measure.cpp", "src/study/errors.hpp"), hashlib.sha256(text).hexdigest(), size, total,
-        wanted, open("build/obj/flags").read()]).encode()).hexdigest()[:24]
-    path = f"{runs.CACHE}/{key}.csv"
+    path = "{}/{}.json".format(runs.CACHE, runs.hash_of(
+        runs.tree_hash("include", "src/scene", "src/cli", "src/study/measure.cpp"), runs.text_of("build/obj/flags"),
+        runs.text_of(scene), size, wanted, total))
     if not os.path.exists(path):
-        words = [f"{n}:{s}:{d}:{c}" for n, s, d, c in wanted]
-        out = runs.output_of(MEASURE, *([] if total else ["-a"]), scene, size, *words)
-        with open(path + ".part", "w") as file:
-            # A setting holds a comma where it is adaptive.
-            for line in out.splitlines()[1:]:
-                for setting, word in zip(wanted, words):
-                    if f",{word}," in line:
-                        values = line.split(f",{word},")[1].split(",")
-                        file.write(json.dumps([setting, values]) + "\n")
-        os.replace(path + ".part", path)
-    names = ["rays", "time/float"] + [f"{kind} {e}" for kind in ("arithmetic", "total") for e in ERRORS]
-    out = {}
-    with open(path) as file:
-        for line in file:
-            setting, values = json.loads(line)
-            known = values != ["refused"]
-            out[tuple(setting)] = dict(zip(names + ["other objects"], map(float, values))) if known else {}
+        runs.keep(path, measure_desktop(scene, size, wanted, total))
+    return {tuple(setting): values for setting, values in runs.kept(path)}
+
+
+def measure_desktop(scene, size, wanted, total):
+    @functools.cache
+    def drawn(setting):
+        to = f"{FOLDER}/desktop.ppm"
+        said = pictures.draw(scene, size, setting, to=to)
+        return said and {**said, "picture": pictures.read(to)}
+
+    # Of one thread, the best of three tries.
+    def speed(setting):
+        return max(pictures.draw(scene, size, setting, "-j", "1")["rays/second"] for _ in range(3))
+
+    centres = [(n, *DEFAULT[1:]) for n in runs.numbers()]
+    _, *combs = runs.measure(0, 1 << 31, scene, size, ("double", *DEFAULT[1:]), *centres)
+    others = {n: sum(other for *_, other in of) for n, of in zip(runs.numbers(), combs)}
+    out = []
+    for setting in wanted:
+        own, (number, *dials) = drawn(setting), setting
+        exact, single = ((n, *dials) for n in ("double", "float"))
+        values = {}
+        if own:
+            time = own["rays"] / speed(setting) * speed(single) / drawn(single)["rays"]
+            values = {"rays": own["rays"], "time/float": round(time, 3)}
+            for kind, truth in [("arithmetic", exact)] + [("total", BEST)] * total:
+                errors = pictures.errors(own["picture"], drawn(truth)["picture"])
+                values.update({f"{kind} {name}": round(value, 6) for name, value in errors.items()})
+            values["other objects"] = others[number]
+        out.append((setting, values))
     return out
 
 
@@ -126,9 +130,6 @@ class Study:
                   if not (n == "double" and scene != first)}
         runs.perform(list(plan.values()) + list(traced.values()), inputs=self.inputs)
         self.profiles = {k: r.result for k, r in traced.items() if "refused" not in r.result}
-        rays = {}
-        for scene, size in self.scenes.items():
-            rays[scene] = desktop(scene, size, self.settings, total=False)
         for (scene, board, setting), run in plan.items():
             if "refused" in run.result:
                 continue
@@ -136,39 +137,36 @@ class Study:
             near = self.profiles.get((scene, board, setting[0])) or self.profiles[first, board, setting[0]]
             # What a pixel of the larger picture takes: adaptive sampling needs more in a small one.
             pixels = math.prod(map(int, self.error_size.split("x")))
-            per_ray = r["instructions"] / rays[scene][setting]["rays"]
+            per_ray = r["instructions"] / pictures.draw(scene, run.size, setting)["rays"]
             large = per_ray * e["rays"] / pixels
             per = near["cycles"] / near["instructions"]
             self.rows.append({
-                "scene": scene, "size": run.size, "board": board, "number": setting[0], "samples": setting[1],
-                "depth": setting[2], "cutoff": setting[3], "instructions/pixel": r["instructions/pixel"],
-                "instructions/ray": round(per_ray, 1), "cycles/pixel": round(r["instructions/pixel"] * per, 1),
+                "scene": scene, "size": run.size, "board": board, **dict(zip(DIALS, setting)),
+                "instructions/pixel": r["instructions/pixel"], "instructions/ray": round(per_ray, 1),
+                "cycles/pixel": round(r["instructions/pixel"] * per, 1),
                 "instructions/pixel at error size": round(large, 1),
                 "cycles/pixel at error size": round(large * per, 1),
-                "flash": r["flash"], "ram": r["ram"], "stack": r["stack"], **e,
-                "setting": setting})
+                "flash": r["flash"], "ram": r["ram"], "stack": r["stack"], **e, "setting": setting})
 
     def write_csv(self):
-        at = commit()
-        with open(f"{self.folder}/boards.csv", "w", newline="") as file:
-            names = [n for n in self.rows[0] if n not in ("setting", "rays", "time/float")]
-            out = csv.writer(file)
-            out.writerow(names + ["error size", "compiler", "flags", "commit"])
-            for row in self.rows:
-                out.writerow([row[n] for n in names] + [self.error_size, self.inputs.compiler(row["board"]),
-                                                        board_flags(row["board"]), at])
-        compiler, flags = open("build/obj/flags").read().strip().split(" ", 1)
+        at, own = commit(), runs.text_of("build/obj/flags").strip()
+        compiler, flags = own.split(" ", 1)
         compiler = runs.output_of(compiler, "--version").splitlines()[0]
-        with open(f"{self.folder}/desktop.csv", "w", newline="") as file:
-            out = csv.writer(file)
-            names = list(next(v for v in self.errors[next(iter(self.scenes))].values() if v))
-            out.writerow(["scene", "size", "number", "samples", "depth", "cutoff"] + names
-                         + ["compiler", "flags", "commit"])
-            for scene in self.everywhere:
-                for setting, values in {**self.everywhere[scene], **self.errors.get(scene, {})}.items():
-                    if values:
-                        out.writerow([scene, self.error_size, *setting, *values.values(), compiler, flags,
-                                      at])
+        self.write_table("boards.csv", [
+            {**row, "error size": self.error_size, "compiler": self.inputs.compiler(row["board"]),
+             "flags": board_flags(row["board"]), "commit": at} for row in self.rows], {"setting", "rays", "time/float"})
+        self.write_table("desktop.csv", [
+            {"scene": scene, "size": self.error_size, **dict(zip(DIALS, setting)), **values, "compiler": compiler,
+             "flags": flags, "commit": at}
+            for scene in self.everywhere
+            for setting, values in {**self.everywhere[scene], **self.errors.get(scene, {})}.items() if values])
+
+    def write_table(self, name, rows, without=()):
+        with open(f"{self.folder}/{name}", "w", newline="") as file:
+            names = [n for n in max(rows, key=len) if n not in without]
+            out = csv.DictWriter(file, names, restval="nan", extrasaction="ignore")
+            out.writeheader()
+            out.writerows(rows)
 
     def draw(self, folder):
         os.makedirs(folder, exist_ok=True)

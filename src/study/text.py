@@ -6,6 +6,7 @@ import os
 import subprocess
 
 import figures
+import pictures
 import runs
 import study as study_file
 
@@ -153,23 +154,19 @@ def study_report():
 
 def accuracy_report():
     """Each scene in each number system against the independent renderer."""
-    rows, numbers, size = [], runs.numbers(), "160x120"
+    rows, numbers, size, to = [], runs.numbers(), "160x120", "build/study/accuracy.ppm"
     os.makedirs("build/study", exist_ok=True)
     for scene in sorted(glob.glob("scenes/*.nff")):
-        subprocess.run(["build/oracle", scene, "-o", "build/study/oracle.ppm", "-s", size], check=True)
-        _, _, truth = figures.read_ppm("build/study/oracle.ppm")
+        subprocess.run(["build/oracle", scene, "-o", to, "-s", size], check=True)
+        truth = pictures.read(to)
         row = [f"`{scene}`"]
         for number in numbers:
-            done = subprocess.run(["build/qray", scene, "-q", "-n", number, "-s", size, "-o",
-                                   "build/study/qray.ppm"], capture_output=True)
-            if done.returncode != 0:
+            if pictures.draw(scene, size, with_dial(number), to=to):
+                own = pictures.read(to)
+                off = (own != truth).any(2).sum()
+                row.append(f"{pictures.errors(own, truth)['psnr']:.0f} dB, {off}" if off else "equal")
+            else:
                 row.append("–")
-                continue
-            _, _, rgb = figures.read_ppm("build/study/qray.ppm")
-            squares = sum((a - b) ** 2 for a, b in zip(rgb, truth))
-            off = sum(rgb[i:i + 3] != truth[i:i + 3] for i in range(0, len(rgb), 3))
-            decibels = 10 * math.log10(255 ** 2 * len(rgb) / squares) if squares else 99
-            row.append("equal" if off == 0 else f"{decibels:.0f} dB, {off}")
         rows.append(row)
     pixels = count(math.prod(map(int, size.split("x"))))
     return (f"PSNR in dB, and how many of {pixels} pixels differ at all; one sample, "
