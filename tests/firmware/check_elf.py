@@ -49,6 +49,58 @@ ASSEMBLY = {"reset", "fault", "systick"}  # src/boards/common
 ROW = "_ZZ4mainE3row"
 
 
+def own_depth(program, entry):
+    """The deepest depth within a function's own body, without what it calls or jumps on to."""
+    end = entry + program.elf.functions[entry][1]
+    depths = program.walk(entry)[2]
+    return max([d + program.at(a).move for a, d in depths.items() if entry <= a < end] + [0])
+
+
+def unreached(program, entry):
+    """Instructions of a function's body that no path from its entry reaches, padding left out."""
+    depths = program.walk(entry)[2]
+    end = entry + program.elf.functions[entry][1]
+    return [a for a in range(entry, end)
+            if a in program.code and a not in depths and program.code[a].name != "nop"]
+
+
+def jump_cycles(program):
+    """Recursion by jumps (tail calls), which needs no stack and so does not show in `bound`."""
+    edges = {}
+    for i in program.code.values():
+        if i.kind in (elf_file.CALL, elf_file.JUMP, elf_file.BRANCH) and i.target in program.elf.functions:
+            if i.kind == elf_file.CALL or program.owner(i.address) != i.target:
+                edges.setdefault(program.owner(i.address), set()).add(i.target)
+    done, found = set(), []
+
+    def visit(node, chain):
+        if node in chain:
+            found.append([program.name(a) for a in chain[chain.index(node):]])
+        elif node not in done:
+            for target in sorted(edges.get(node, ())):
+                visit(target, chain + [node])
+            done.add(node)
+
+    for node in sorted(edges):
+        visit(node, [])
+    return found
+
+
+def compiler_frames(folder):
+    """Frame bytes by symbol by the compiler's -fcallgraph-info=su, and names of frames of unknown size."""
+    frames, dynamic = {}, []
+    for file in sorted(os.listdir(folder)):
+        if file.endswith(".ci") and not file.endswith("-rays.ci"): # of the program that counts rays, maybe an old one
+            with open(os.path.join(folder, file)) as text:
+                for title, size, kind in re.findall(
+                        r'node: \{ title: "([^"]*)" label: "[^"]*\\n(\d+) bytes \(([a-z,]+)\)', text.read()):
+                    symbol = title.rsplit(":", 1)[-1]
+                    frames[symbol] = max(frames.get(symbol, 0), int(size))
+                    if kind != "static":
+                        dynamic.append(symbol)
+    return frames, dynamic
+
+
 def budget_of(file, key):
     """(flash, ram, stack) for (board, scene, number), or None where none is set."""
     for number, line in enumerate(file, 1):
@@ -70,31 +122,32 @@ def check(path, tools, budgets):
     scene, number = name.removesuffix(".elf").removesuffix("-uart").rsplit("-", 1)
     board = os.path.basename(folder)
     objects = path.removesuffix(".elf") + ".obj"
-    frames, dynamic = elf_file.compiler_frames(objects)
+    frames, dynamic = compiler_frames(objects)
 
-    defined = {symbol for symbol, *_, index in elf.symbols if index != 0}
+    defined = {s.name for s in elf.symbols if s.section != "UND"}
     for file in sorted(os.listdir(objects)):
         if file.endswith(".o"):  # a weak name left undefined leaves no trace in the linked file
-            weak = elf_file.Elf(os.path.join(objects, file)).weak
+            weak = {s.name for s in elf_file.Elf(os.path.join(objects, file)).symbols
+                    if s.section == "UND" and s.bind == "WEAK"}
             faults += [f"{symbol} is undefined" for symbol in sorted(weak - defined)]
 
-    for section, _, flags, _, _, size, _ in elf.sections:
-        if flags & 2 and size and section not in SECTIONS:
-            faults.append(f"section {section} of {size} bytes")
-    host = [(s[3], s[3] + s[5]) for s in elf.sections if s[0] == ".host_bss"]
-    for symbol, address, size, kind, index in elf.symbols:
-        if index == 0 and symbol:
-            faults.append(f"{symbol} is undefined")
-        if FORBIDDEN.match(symbol):
-            faults.append(f"{symbol} is linked")
-        if kind == 1 and index < len(elf.sections) and elf.sections[index][2] & 1:
-            if symbol != ROW and not any(low <= address < high for low, high in host):
-                faults.append(f"{symbol} is a mutable global of {size} bytes")
+    for s in elf.sections:
+        if "A" in s.flags and s.size and s.name not in SECTIONS:
+            faults.append(f"section {s.name} of {s.size} bytes")
+    for s in elf.symbols:
+        if s.section == "UND" and s.name:
+            faults.append(f"{s.name} is undefined")
+        if FORBIDDEN.match(s.name):
+            faults.append(f"{s.name} is linked")
+        if s.type == "OBJECT" and s.section.isdigit():
+            holder = elf.sections[int(s.section)]
+            if "W" in holder.flags and holder.name != ".host_bss" and s.name != ROW:
+                faults.append(f"{s.name} is a mutable global of {s.size} bytes")
     # Constructors have two names, of which the compiler states one.
     names = {}
-    for symbol, address, _, kind, index in elf.symbols:
-        if kind == 2 and index != 0:
-            names.setdefault(address, set()).add(symbol)
+    for s in elf.symbols:
+        if s.type == "FUNC" and s.section != "UND":
+            names.setdefault(s.address, set()).add(s.name)
     stated_frames = {address: frames[name] for address in names for name in names[address] & frames.keys()}
 
     helpers = HELPERS.get(number, [INTEGER, SINGLE])
@@ -105,19 +158,19 @@ def check(path, tools, budgets):
     faults += [f"{function} has a frame of no fixed size" for function in dynamic]
 
     program = elf_file.Program(elf, tools)
-    bound, _ = program.bound(program.entry("start"))
+    bound, _ = program.bound(elf.symbol("start"))
     faults += program.problems
-    faults += ["recursion by jumps: " + " -> ".join(cycle) for cycle in program.jump_cycles()]
+    faults += ["recursion by jumps: " + " -> ".join(cycle) for cycle in jump_cycles(program)]
     for address in program.memo:
         stated = stated_frames.get(address)
         if stated is None:
             continue
-        followed = program.own_depth(address)
+        followed = own_depth(program, address)
         # On Arm the compiler leaves out registers that it saves beside arguments on the stack.
-        if not stated <= followed <= stated + (16 if elf.machine == "arm" else 0):
+        if not stated <= followed <= stated + (16 if elf.is_arm else 0):
             faults.append(f"{program.name(address)} has a frame of {followed} bytes, "
                           f"and the compiler states {stated}")
-        lost = program.unreached(address)
+        lost = unreached(program, address)
         if lost:
             faults.append(f"{program.name(address)} has code that was not followed, at {lost[0]:#x}")
     if uart:

@@ -69,10 +69,9 @@ def compile_scene(name, absent, include):
     if result.returncode != 0:
         return result.stdout
     found = elf.Elf(path)
-    loaded = [(section, found.bytes[offset:offset + size])
-              for section, kind, flags, _, offset, size, _ in found.sections
-              if (flags & 2 and kind != 8) or section.startswith(".rel.")]
-    return [part for part in loaded if "debug" not in part[0]], [symbol for symbol, *_ in found.symbols]
+    loaded = [(s.name, found.contents(s)) for s in found.sections
+              if ("A" in s.flags and s.type != "NOBITS") or s.name.startswith(".rel.")]
+    return [part for part in loaded if "debug" not in part[0]], [symbol.name for symbol in found.symbols]
 
 
 def effects_of(name):

@@ -7,9 +7,8 @@ it meets one of them. `python3 elf.py TOOLS-PREFIX FILE.elf` prints the deepest 
 """
 
 import bisect
-import os
+import collections
 import re
-import struct
 import subprocess
 import sys
 
@@ -17,63 +16,57 @@ RETURN, JUMP, BRANCH, CALL, SWITCH, INDIRECT, PLAIN = range(7)
 CONDITION = "(eq|ne|cs|cc|mi|pl|vs|vc|hi|ls|ge|lt|gt|le|hs|lo)"
 
 
+Section = collections.namedtuple("Section", "name type address offset size flags")
+Symbol = collections.namedtuple("Symbol", "name address size type bind section")  # Thumb bit cleared
+
+
 class Elf:
     def __init__(self, path):
-        with open(path, "rb") as file:
-            self.bytes = file.read()
-        if self.bytes[:5] != b"\x7fELF\x01":
-            raise SystemExit(f"{path}: not a 32-bit ELF file")
         self.path = path
-        self.machine = {40: "arm", 243: "riscv"}[struct.unpack_from("<H", self.bytes, 18)[0]]
-        offset, = struct.unpack_from("<I", self.bytes, 32)
-        size, count, names = struct.unpack_from("<HHH", self.bytes, 46)
-        raw = [struct.unpack_from("<10I", self.bytes, offset + i * size) for i in range(count)]
-        self.sections = []  # (name, type, flags, address, offset, size, link)
-        for name, kind, flags, address, at, length, link, *_ in raw:
-            self.sections.append((self.text(raw[names][4] + name), kind, flags, address, at, length, link))
-        self.symbols = []  # (name, address, size, type, section index); Thumb bit cleared
-        self.weak = set()  # names that may stay undefined
-        for _, kind, _, _, at, length, link in self.sections:
-            if kind == 2:
-                for i in range(at + 16, at + length, 16):
-                    name, value, size, info, _, index = struct.unpack_from("<IIIBBH", self.bytes, i)
-                    value &= ~1 if self.machine == "arm" and info & 15 == 2 else ~0
-                    text = self.text(self.sections[link][4] + name)
-                    if index == 0 and info >> 4 == 2:
-                        self.weak.add(text)
-                    self.symbols.append((text, value, size, info & 15, index))
+        said = subprocess.run(["readelf", "-hSsW", path], capture_output=True, text=True).stdout
+        machine = re.search(r"ELF32$.*^  Machine: +(ARM|RISC-V)$", said, re.M | re.S)
+        if machine is None:
+            raise SystemExit(f"{path}: not a 32-bit ELF file of Arm or RISC-V")
+        self.is_arm = machine[1] == "ARM"
+        self.sections = [
+            Section(name, kind, *(int(n, 16) for n in numbers), flags) for name, kind, *numbers, flags in re.findall(
+                r"^  \[ *\d+\] (\S*) +(\S+) +([0-9a-f]{8}) ([0-9a-f]+) ([0-9a-f]+) .. +([A-Za-z]*)", said, re.M)]
+        self.symbols = [
+            Symbol(name, int(value, 16) & (~1 if self.is_arm and kind == "FUNC" else ~0), int(size, 0), kind, *of)
+            for value, size, kind, *of, name in re.findall(
+                r"^ *\d+: ([0-9a-f]{8}) +(\w+) (\w+) +(\w+) +\w+ +(\w+) ?(.*)$", said, re.M)]
         self.functions = {}  # address -> (name, size); of several names for one address the first
-        for name, value, size, kind, index in self.symbols:
-            if kind == 2 and index != 0:
-                known = self.functions.get(value)
-                if known is None or known[1] < size:
-                    self.functions[value] = (name, size)
-
-    def text(self, at):
-        return self.bytes[at:self.bytes.index(b"\0", at)].decode()
+        for s in self.symbols:
+            if s.type == "FUNC" and s.section != "UND":
+                known = self.functions.get(s.address)
+                if known is None or known[1] < s.size:
+                    self.functions[s.address] = (s.name, s.size)
 
     def symbol(self, name):
-        for known, value, *_ in self.symbols:
-            if known == name:
-                return value
+        for s in self.symbols:
+            if s.name == name:
+                return s.address
         raise SystemExit(f"{self.path}: no symbol {name}")
 
-    def size(self, *names):
-        return sum(s[5] for s in self.sections if s[0] in names)
+    def contents(self, section):
+        with open(self.path, "rb") as file:
+            file.seek(section.offset)
+            return file.read(section.size)
 
     def word(self, address):
-        for _, kind, flags, start, at, length, _ in self.sections:
-            if flags & 2 and kind == 1 and start <= address < start + length:
-                return struct.unpack_from("<I", self.bytes, at + address - start)[0]
+        for s in self.sections:
+            if "A" in s.flags and s.type == "PROGBITS" and s.address <= address < s.address + s.size:
+                return int.from_bytes(self.contents(s)[address - s.address:][:4], "little")
         raise SystemExit(f"{self.path}: no constant at {address:#x}")
 
     def sizes(self):
         """Bytes of flash and static RAM, with and without what only an emulated run needs."""
-        flash = self.size(".vectors", ".text", ".rodata", ".init_array", ".data")
-        ram = self.size(".data", ".bss")
+        def size(*names):
+            return sum(s.size for s in self.sections if s.name in names)
+        flash = size(".vectors", ".text", ".rodata", ".init_array", ".data")
+        ram = size(".data", ".bss")
         return {"flash": flash, "ram": ram,
-                "flash_total": flash + self.size(".host", ".host_rodata"),
-                "ram_total": ram + self.size(".host_bss")}
+                "flash_total": flash + size(".host", ".host_rodata"), "ram_total": ram + size(".host_bss")}
 
 
 class Instruction:
@@ -90,9 +83,9 @@ class Program:
         self.starts = sorted(elf.functions)
         output = subprocess.run([tools + "objdump", "-d", "-z", "--no-show-raw-insn", elf.path],
                                 check=True, capture_output=True, text=True).stdout
-        comment = "@;" if elf.machine == "arm" else "#"
+        comment = "@;" if elf.is_arm else "#"
         pattern = re.compile(rf"\s*([0-9a-f]+):\t(\S+)\s*([^{comment}<]*)")
-        self.decode = self.decode_arm if elf.machine == "arm" else self.decode_riscv
+        self.decode = self.decode_arm if elf.is_arm else self.decode_riscv
         last = None
         for line in output.splitlines():
             match = re.match(pattern, line)
@@ -304,19 +297,6 @@ class Program:
                     switches.pop(0)
         return deepest, calls, depths
 
-    def own_depth(self, entry):
-        """The deepest depth within a function's own body, without what it calls or jumps on to."""
-        end = entry + self.elf.functions[entry][1]
-        depths = self.walk(entry)[2]
-        return max([d + self.at(a).move for a, d in depths.items() if entry <= a < end] + [0])
-
-    def unreached(self, entry):
-        """Instructions of a function's body that no path from its entry reaches, padding left out."""
-        depths = self.walk(entry)[2]
-        end = entry + self.elf.functions[entry][1]
-        return [a for a in range(entry, end)
-                if a in self.code and a not in depths and self.code[a].name != "nop"]
-
     def bound(self, entry, chain=()):
         """(bytes, chain of (name, depth at the call)) of the deepest path from a function's entry."""
         if entry in chain:
@@ -335,48 +315,6 @@ class Program:
             self.memo[entry] = best
         return self.memo[entry]
 
-    def entry(self, name):
-        for address, (known, _) in self.elf.functions.items():
-            if known == name:
-                return address
-        raise SystemExit(f"{self.elf.path}: no function {name}")
-
-    def jump_cycles(self):
-        """Recursion by jumps (tail calls), which needs no stack and so does not show in `bound`."""
-        edges = {}
-        for i in self.code.values():
-            if i.kind in (CALL, JUMP, BRANCH) and i.target in self.elf.functions:
-                if i.kind == CALL or self.owner(i.address) != i.target:
-                    edges.setdefault(self.owner(i.address), set()).add(i.target)
-        done, found = set(), []
-
-        def visit(node, chain):
-            if node in chain:
-                found.append([self.name(a) for a in chain[chain.index(node):]])
-            elif node not in done:
-                for target in sorted(edges.get(node, ())):
-                    visit(target, chain + [node])
-                done.add(node)
-
-        for node in sorted(edges):
-            visit(node, [])
-        return found
-
-
-def compiler_frames(folder):
-    """Frame bytes by symbol by the compiler's -fcallgraph-info=su, and names of frames of unknown size."""
-    frames, dynamic = {}, []
-    for file in sorted(os.listdir(folder)):
-        if file.endswith(".ci") and not file.endswith("-rays.ci"): # of the program that counts rays, maybe an old one
-            with open(os.path.join(folder, file)) as text:
-                for title, size, kind in re.findall(
-                        r'node: \{ title: "([^"]*)" label: "[^"]*\\n(\d+) bytes \(([a-z,]+)\)', text.read()):
-                    symbol = title.rsplit(":", 1)[-1]
-                    frames[symbol] = max(frames.get(symbol, 0), int(size))
-                    if kind != "static":
-                        dynamic.append(symbol)
-    return frames, dynamic
-
 
 def readable(tools, text):
     """The text with C++ names as written, without template arguments and parameters."""
@@ -390,7 +328,7 @@ def readable(tools, text):
 def main():
     tools, path = sys.argv[1:3]
     program = Program(Elf(path), tools)
-    total, chain = program.bound(program.entry("start"))
+    total, chain = program.bound(program.elf.symbol("start"))
     lines = [f"{depth:6} {name}" for name, depth in chain] + [f"{total:6} total"] + program.problems
     print(readable(tools, "\n".join(lines)))
 

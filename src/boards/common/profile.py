@@ -74,8 +74,8 @@ class Profile:
     def __init__(self, tools, qemu, path, step_of=lambda names: None):
         elf = elf_file.Elf(path)
         self.program = program = elf_file.Program(elf, tools)
-        host = [(s[3], s[3] + s[5]) for s in elf.sections if s[0] in (".host", ".vectors")]
-        start = program.entry("start")
+        host = [(s.address, s.address + s.size) for s in elf.sections if s.name in (".host", ".vectors")]
+        start = elf.symbol("start")
         mine = {a for a in program.code if program.owner(a) not in (start, None)
                 and not any(low <= a < high for low, high in host)}
         self.names = chains(tools, path, sorted(mine))

@@ -6,11 +6,13 @@ Without --qemu it reports sizes and the stack's bound only. A picture appears un
 """
 
 import argparse
+import math
 import os
 import re
 import shlex
 import subprocess
 import sys
+import tempfile
 import time
 
 sys.dont_write_bytecode = True
@@ -21,112 +23,92 @@ def fail(text):
     raise SystemExit(f"run: {text}")
 
 
-def header_end(data):
-    """(width, height, bytes of the header) of a binary PPM's beginning, or None."""
-    match = re.match(rb"P6\n(\d+) (\d+)\n255\n", data)
-    return (int(match[1]), int(match[2]), match.end()) if match else None
-
-
-def expect_whole(path, what):
+def parts_of(path):
+    """(bytes, bytes of the whole, pixels) of a binary PPM that may still grow."""
+    if not os.path.exists(path):
+        return 0, math.inf, 0
     with open(path, "rb") as file:
-        data = file.read()
-    found = header_end(data)
-    if found is None or len(data) != found[2] + 3 * found[0] * found[1]:
-        fail(f"{what}: the picture is not whole: {len(data)} bytes")
-    return found[0], found[1]
+        head = re.match(rb"P6\n(\d+) (\d+)\n255\n", file.read(40))
+    pixels = int(head[1]) * int(head[2]) if head else 0
+    return os.path.getsize(path), head.end() + 3 * pixels if head else math.inf, pixels
 
 
 class Progress:
-    """How much of a picture is in its file, and the time left, in a line on a terminal that is wiped at the end."""
+    """How much of a picture is there, and the time left, in a line on a terminal that is wiped at the end."""
 
     def __init__(self, what):
         self.what, self.shown, self.width = what, sys.stderr.isatty(), 0
         self.start = time.monotonic()
 
-    def update(self, picture):
+    def update(self, there, whole):
         past = time.monotonic() - self.start
-        if not self.shown or past < 0.5 or not os.path.exists(picture):
+        if not self.shown or past < 0.5 or there == 0 or whole == math.inf:
             return
-        with open(picture, "rb") as file:
-            found = header_end(file.read(40))
-        done = os.path.getsize(picture) - found[2] if found else 0
-        if done <= 0:
-            return
-        total = 3 * found[0] * found[1]
-        left = round(past * (total - done) / done)
-        text = f"{self.what}: {100 * done // total} %, {left} s left"
-        if left >= 60:
-            text = f"{self.what}: {100 * done // total} %, {left // 60} min {left % 60} s left"
-        sys.stderr.write("\r" + text.ljust(self.width))
-        sys.stderr.flush()
+        minutes, seconds = divmod(round(past * (whole - there) / there), 60)
+        left = f"{minutes} min {seconds} s" if minutes else f"{seconds} s"
+        text = f"{self.what}: {100 * there // whole} %, {left} left"
+        print("\r" + text.ljust(self.width), end="", file=sys.stderr, flush=True)
         self.width = len(text)
 
     def wipe(self):
         if self.width:
-            sys.stderr.write("\r" + " " * self.width + "\r")
-            sys.stderr.flush()
+            print("\r" + " " * self.width + "\r", end="", file=sys.stderr, flush=True)
+
+
+def emulate(command, image, picture, seconds, what, is_over=lambda there, whole: False):
+    """Runs to the emulator's end, or until the picture is_over; returns its status, or None, and what it said."""
+    progress, end = Progress(what), time.monotonic() + seconds
+    with tempfile.TemporaryFile() as output:
+        process = subprocess.Popen(command + ["-monitor", "none", "-kernel", image], stdin=subprocess.DEVNULL,
+                                   stdout=output, stderr=subprocess.STDOUT)
+        try:
+            while process.poll() is None:
+                there, whole, _ = parts_of(picture)
+                if is_over(there, whole):
+                    return None, ""
+                if time.monotonic() > end:
+                    fail(f"{image}: no whole picture after {seconds:.0f} seconds")
+                progress.update(there, whole)
+                time.sleep(0.02)
+        finally:
+            process.kill()
+            process.wait()
+            progress.wipe()
+        output.seek(0)
+        return process.returncode, output.read().decode(errors="replace")
 
 
 def run_semihosting(command, image, picture, seconds, what):
     """Runs to the firmware's own exit; returns its `name: value` lines."""
     name = picture.replace(",", ",,")
-    command = command + ["-nographic", "-monitor", "none", "-serial", "none", "-icount", "shift=0",
-                         "-semihosting-config", f"enable=on,target=native,arg={name}", "-kernel", image]
-    progress, end = Progress(what), time.monotonic() + seconds
-    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                               text=True, errors="replace")
-    output = None
-    try:
-        while output is None:
-            try:
-                output, _ = process.communicate(timeout=0.2)
-            except subprocess.TimeoutExpired:
-                if time.monotonic() > end:
-                    fail(f"{image}: no end after {seconds:.0f} seconds")
-                progress.update(picture)
-    finally:
-        process.kill()
-        process.wait()
-        progress.wipe()
-    values = dict(re.findall(r"^(\w+): (\d+)$", output, re.M))
-    if process.returncode != 0:
-        sys.stderr.write(output)
-        fail(f"{image}: exit status {process.returncode}")
-    return values
+    status, said = emulate(command + ["-nographic", "-serial", "none", "-icount", "shift=0", "-semihosting-config",
+                                      f"enable=on,target=native,arg={name}"], image, picture, seconds, what)
+    if status != 0:
+        sys.stderr.write(said)
+        fail(f"{image}: exit status {status}")
+    return dict(re.findall(r"^(\w+): (\d+)$", said, re.M))
 
 
 def run_uart(command, image, picture, seconds, what):
     """Captures the serial port until the picture is whole, as a board has no way to end the emulator."""
-    command = command + ["-display", "none", "-monitor", "none", "-serial", f"file:{picture}",
-                         "-kernel", image]
-    process = subprocess.Popen(command, stdin=subprocess.DEVNULL)
-    progress, end = Progress(what), time.monotonic() + seconds
-    size, whole = 0, False
-    try:
-        while True:
-            ended, last = process.poll(), size
-            data = b""
-            if os.path.exists(picture):
-                with open(picture, "rb") as file:
-                    data = file.read()
-            size = len(data)
-            message = re.search(rb"qray: [^\n]*\n", data)
-            if message:
-                fail(f"{image}: {message[0].decode(errors='replace').strip()}")
-            found = header_end(data)
-            if whole and size == last:  # and nothing has followed it
-                return
-            whole = found is not None and size >= found[2] + 3 * found[0] * found[1]
-            if ended is not None:
-                fail(f"{image}: the emulator ended with status {ended}")
-            if time.monotonic() > end:
-                fail(f"{image}: no whole picture after {seconds} seconds")
-            progress.update(picture)
-            time.sleep(0.1 if whole else 0.02)
-    finally:
-        process.kill()
-        process.wait()
-        progress.wipe()
+    def message():
+        if os.path.exists(picture):
+            with open(picture, "rb") as file:
+                return re.search(rb"qray: ([^\n]*)\n", file.read())
+
+    def is_over(there, whole):
+        if there < whole:
+            return message()
+        time.sleep(0.1)
+        return os.path.getsize(picture) == there  # nothing has followed it
+
+    status, _ = emulate(command + ["-display", "none", "-serial", f"file:{picture}"], image, picture, seconds, what,
+                        is_over)
+    if message():
+        fail(f"{image}: qray: {message()[1].decode(errors='replace')}")
+    if status is not None:
+        fail(f"{image}: the emulator ended with status {status}")
+    return {}
 
 
 def main():
@@ -145,7 +127,7 @@ def main():
     image = elf_file.Elf(args.image)
     sizes = image.sizes()
     program = elf_file.Program(image, args.tools)
-    bound, _ = program.bound(program.entry("start"))
+    bound, _ = program.bound(image.symbol("start"))
     if program.problems and not args.unbounded:
         fail("the stack has no bound: " + "; ".join(program.problems))
     free = image.symbol("stack_top") - image.symbol("static_end")
@@ -159,13 +141,11 @@ def main():
             if os.path.exists(old):
                 os.remove(old)
         command = shlex.split(args.qemu)
-        values = {}
-        if args.uart:
-            run_uart(command, args.image, part, args.seconds, "drawing")
-        else:
-            values = run_semihosting(command, args.image, part, args.seconds, "drawing")
-        width, height = expect_whole(part, args.image)
-        pixels = width * height
+        run = run_uart if args.uart else run_semihosting
+        values = run(command, args.image, part, args.seconds, "drawing")
+        there, whole, pixels = parts_of(part)
+        if there != whole:
+            fail(f"{args.image}: the picture is not whole: {there} bytes")
         if "stack" in values:
             report["stack"] = int(values["stack"])
             if report["stack"] > bound + 112 * int(int(values["ticks"]) >= 1 << 24):
