@@ -11,16 +11,13 @@ published timings of the cores make of them, with memory that never makes the co
 A load's cycles do not count what following loads gain from the pipeline, so M3 and M4F are upper
 estimates."""
 
-import collections
 import re
-import subprocess
 import sys
 
 sys.path.insert(0, "src/boards/common")
 import elf as elf_file  # noqa: E402
 import profile as profiler  # noqa: E402
-from programs import environment, message_of  # noqa: E402
-from settings import board_facts  # noqa: E402
+from settings import board_facts, told  # noqa: E402
 
 # Cycles by class of src/boards/common/profile.py; `several` is what a load or store of several costs beside
 # one cycle for each register, `return` what it costs where it pops them.
@@ -33,18 +30,16 @@ RV32 = {"other": 1, "multiply": 1, "long multiply": 2, "divide": 37, "load": 2, 
         "branch, not taken": 1, "branch, taken": 3, "jump": 2, "call": 2, "return": 2}
 TIMINGS = {"microbit": M0, "mps2_an385": M3, "mps2_an386": M4F, "rv32_virt": RV32}
 
-TEXTURES = ["checker", "stripes", "gradient", "rings", "noise", "marble", "wood", "brick"]
+SHAPES = {name: name + ("es" if name[-1] in "hsx" else "s") for name in told()["shapes"]}
 # The step that an instruction belongs to is that of the innermost of these files that it was inlined into.
 # What was inlined into none (arithmetic out of line, the compiler's library) counts for the step that called
 # it.
-STEPS = {
-    "camera": "camera", "render": "camera", "grid": "camera", "adaptive": "camera", "windows": "camera",
-    "sphere": "spheres", "disc": "discs", "cone": "cones", "polygon": "polygons", "patch": "patches",
-    "nearest": "nearest hit", "tree": "nearest hit", "shadow": "nearest hit", "see_through": "nearest hit",
-    "trace": "shading", "highlight": "shading", "light": "shading", "sun": "shading", "mirror": "shading",
-    "transmit": "shading", "sampler": "output", "sink": "output", "ppm": "output", "main": "output",
-    **{name: name for name in TEXTURES},
+FILES = {
+    "camera": "camera render grid adaptive", "nearest hit": "nearest tree shadow see_through",
+    "shading": "trace highlight light sun mirror transmit", "textures": " ".join(told()["textures"]),
+    "output": "sampler sink ppm main",
 }
+STEPS = {**SHAPES, **{file: step for step, files in FILES.items() for file in files.split()}}
 ROOTS = re.compile(r"sqrt|reciprocal|normalise|quotient|div")
 
 
@@ -67,21 +62,17 @@ def step_of(chain):
 
 
 def measure(run, name):
-    """Builds the firmware of a run and traces it: {instructions, cycles, classes, steps}."""
-    build = [c for c in run.command(name)]
-    build[build.index("profile")] = "size"
-    done = subprocess.run(build, capture_output=True, text=True, env=environment())
-    if done.returncode != 0:
-        return {"refused": message_of(done)}
+    """Builds the firmware of a run and traces it: {instructions, cycles, steps, roots}."""
+    built = run.measure(run.command(name))
+    if "refused" in built:
+        return built
     facts = board_facts(run.board)
     profile = profiler.Profile(facts["tools"], facts["qemu"], f"build/{run.board}/{name}-{run.number}.elf", step_of)
-    program, classes, cycles, roots = profile.program, collections.Counter(), 0, 0
+    program, instructions, cycles, roots = profile.program, 0, 0, 0
     for address, kind, number in profile.classes:
-        classes[kind] += number
+        instructions += number
         cycles += number * cost(run.board, program.at(address), kind)
         chain = profile.names[address]
         if ROOTS.search(chain[0][1] if chain else program.name(program.owner(address))):
             roots += number
-    sizes = {k: int(v) for k, v in re.findall(r"^(flash|ram|stack_bound): (\d+)$", done.stdout, re.M)}
-    return {"instructions": sum(classes.values()), "cycles": cycles, "classes": dict(classes),
-            "steps": dict(profile.steps), "roots": roots, **sizes}
+    return {"instructions": instructions, "cycles": cycles, "steps": dict(profile.steps), "roots": roots}

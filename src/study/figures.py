@@ -89,8 +89,8 @@ def bits(study, path):
     figure, axes = plt.subplots(figsize=(6.4, 4))
     numbers = [n for n in runs.numbers() if n != "double"]
     for k, n in enumerate(numbers):
-        of = sorted((v[n, *settings.DEFAULT[1:]]["arithmetic psnr"], scene) for scene, v in study.everywhere.items()
-                    if v.get((n, *settings.DEFAULT[1:])))
+        setting = settings.DEFAULT._replace(number=n)
+        of = sorted((v[setting]["arithmetic psnr"], scene) for scene, v in study.everywhere.items() if v.get(setting))
         if of:
             style = number_style(n)
             axes.plot([k + 0.02 * (i - len(of) / 2) for i in range(len(of))], [p for p, _ in of], **style)
@@ -105,8 +105,8 @@ def bits(study, path):
 
 def mean_samples(study, scene, setting):
     """Samples a pixel, from the rays of each: adaptive sampling has no number of its own."""
-    if setting[1][0] != "a":
-        return float(setting[1])
+    if setting.samples[0] != "a":
+        return float(setting.samples)
     e = study.errors[scene]
     return e[setting]["rays"] / e[settings.DEFAULT]["rays"]
 
@@ -148,15 +148,14 @@ def panel(study, path):
     """The showcase in each number system beside its error, and what one sample costs."""
     size = "64x48" if study.quick else "160x120"
 
-    def draw(number, samples="1", depth=5):
-        to = f"{study.folder}/panel.ppm"
-        setting = number, samples, depth, settings.DEFAULT[3]
+    def draw(**dials):
+        to, setting = f"{study.folder}/panel.ppm", settings.DEFAULT._replace(**dials)
         return pictures.draw("scenes/showcase.nff", size, setting, to=to) and pictures.read(to)
 
-    exact, best = draw("double"), draw("double", "256", 8)
-    shown = [(n, draw(n), exact, "double") for n in runs.numbers() if n != "double"]
-    shown += [("q32, 1 sample", draw("q32"), best, "256 samples"),
-              ("q32, 16 samples", draw("q32", "16"), best, "256 samples")]
+    exact, best = draw(number="double"), draw(number="double", samples="256", depth=8)
+    shown = [(n, draw(number=n), exact, "double") for n in runs.numbers() if n != "double"]
+    shown += [("q32, 1 sample", draw(), best, "256 samples"),
+              ("q32, 16 samples", draw(samples="16"), best, "256 samples")]
     shown = [p for p in shown if p[1] is not None]
     figure, plots = plt.subplots(2, len(shown), figsize=(2.2 * len(shown), 4.4))
     for (above, below), (name, picture, truth, against) in zip(plots.T, shown):

@@ -110,7 +110,7 @@ class Run:
                        sorted(self.options.items()))
 
     def command(self, name):
-        target = "profile" if self.profile else "size" if self.build_only else "run"
+        target = "size" if self.profile or self.build_only else "run"
         return ["make", "--no-print-directory", target, f"BOARD={self.board}",
                 f"SCENE={self.scene}", f"NUMBER={self.number}", f"SIZE={self.size}", f"NAME={name}",
                 f"RAYS={'yes' if self.rays else 'no'}", *(f"{k}={v}" for k, v in self.options.items())]
@@ -125,11 +125,7 @@ class Run:
         if self.result is not None:
             return
         name = f"study-{key}"
-        if self.profile:
-            # Its own command would profile the whole program by source line, which takes the longest.
-            self.result = cycles.measure(self, name)
-        else:
-            self.result = self.measure(self.command(name))
+        self.result = cycles.measure(self, name) if self.profile else self.measure(self.command(name))
         if "refused" in self.result and not self.does_not_fit():
             failures.append((self.describe(), self.result["refused"]))
             return

@@ -1,5 +1,6 @@
 """Boards, number systems and settings: what measurements name."""
 
+import collections
 import functools
 import json
 
@@ -9,14 +10,20 @@ from programs import output_of
 BOARDS = {"microbit": "M0", "mps2_an385": "M3", "mps2_an386": "M4F", "mps2_an500": "M7F", "rv32_virt": "RV32"}
 # Those that are studied.
 STUDIED = ["microbit", "mps2_an385", "mps2_an386", "rv32_virt"]
-# Number system, samples (or ADAPTIVE's value after an `a`), depth, cutoff.
-DEFAULT = ("q32", "1", 5, 0.0014)
+# Samples are a square, or ADAPTIVE's value after an `a`.
+Setting = collections.namedtuple("Setting", "number samples depth cutoff")
+DEFAULT = Setting("q32", "1", 5, 0.0014)
 
 
 @functools.cache
+def told():
+    """What there is of each kind, as the command says."""
+    return json.loads(output_of("build/qray", "--describe"))
+
+
 def numbers():
     """The number systems, as the command names them."""
-    return json.loads(output_of("build/qray", "--describe"))["numbers"]
+    return told()["numbers"]
 
 
 @functools.cache

@@ -16,27 +16,23 @@ sys.dont_write_bytecode = True
 import figures  # noqa: E402
 import pictures  # noqa: E402
 import runs  # noqa: E402
-from settings import DEFAULT, STUDIED as BOARDS, options  # noqa: E402
+from settings import DEFAULT, STUDIED as BOARDS, Setting, options  # noqa: E402
 
 FOLDER = "build/study"
-BEST = ("double", "256", 8, DEFAULT[3])  # what total errors are against
+BEST = Setting("double", "256", 8, DEFAULT.cutoff)  # what total errors are against
 # Scenes of the boards, and the size of their pictures there.
 SCENES = {"scenes/floor.nff": "32x24", "scenes/glass.nff": "24x18", "scenes/showcase.nff": "24x18"}
 ERROR_SIZE = "160x120"
-DIALS = ["number", "samples", "depth", "cutoff"]
 
 
 def settings(quick=False):
-    """As settings.DEFAULT."""
-    number, samples, depth, cutoff = DEFAULT
     if quick:
-        return [DEFAULT, ("float", samples, depth, cutoff), (number, "4", depth, cutoff)]
-    out = [(n, samples, depth, cutoff) for n in runs.numbers()]
-    out += [(number, s, depth, cutoff) for s in ("4", "9", "16", "a2,0.0625", "a3,0.03125")]
-    out += [(n, "4", depth, cutoff) for n in runs.numbers() if n not in (number, "double")]
-    out += [(number, samples, d, cutoff) for d in (1, 2, 3)]
-    out += [(number, samples, depth, c) for c in (0.02,)]
-    return out
+        return [DEFAULT, DEFAULT._replace(number="float"), DEFAULT._replace(samples="4")]
+    out = [DEFAULT._replace(number=n) for n in runs.numbers()]
+    out += [DEFAULT._replace(samples=s) for s in ("4", "9", "16", "a2,0.0625", "a3,0.03125")]
+    out += [DEFAULT._replace(number=n, samples="4") for n in runs.numbers() if n not in (DEFAULT.number, "double")]
+    out += [DEFAULT._replace(depth=d) for d in (1, 2, 3)]
+    return out + [DEFAULT._replace(cutoff=0.02)]
 
 
 def traced_size(board, number):
@@ -67,7 +63,7 @@ def desktop(scene, size, wanted, total=True):
         runs.text_of(scene), size, wanted, total))
     if not os.path.exists(path):
         runs.keep(path, measure_desktop(scene, size, wanted, total))
-    return {tuple(setting): values for setting, values in runs.kept(path)}
+    return {Setting(*setting): values for setting, values in runs.kept(path)}
 
 
 def measure_desktop(scene, size, wanted, total):
@@ -81,21 +77,20 @@ def measure_desktop(scene, size, wanted, total):
     def speed(setting):
         return max(pictures.draw(scene, size, setting, "-j", "1")["rays/second"] for _ in range(3))
 
-    centres = [(n, *DEFAULT[1:]) for n in runs.numbers()]
-    _, *combs = runs.measure(0, 1 << 31, scene, size, ("double", *DEFAULT[1:]), *centres)
+    centres = [DEFAULT._replace(number=n) for n in runs.numbers()]
+    _, *combs = runs.measure(0, 1 << 31, scene, size, DEFAULT._replace(number="double"), *centres)
     others = {n: sum(other for *_, other in of) for n, of in zip(runs.numbers(), combs)}
     out = []
     for setting in wanted:
-        own, (number, *dials) = drawn(setting), setting
-        exact, single = ((n, *dials) for n in ("double", "float"))
-        values = {}
+        own, values = drawn(setting), {}
+        exact, single = (setting._replace(number=n) for n in ("double", "float"))
         if own:
             time = own["rays"] / speed(setting) * speed(single) / drawn(single)["rays"]
             values = {"rays": own["rays"], "time/float": round(time, 3)}
             for kind, truth in [("arithmetic", exact)] + [("total", BEST)] * total:
                 errors = pictures.errors(own["picture"], drawn(truth)["picture"])
                 values.update({f"{kind} {name}": round(value, 6) for name, value in errors.items()})
-            values["other objects"] = others[number]
+            values["other objects"] = others[setting.number]
         out.append((setting, values))
     return out
 
@@ -116,14 +111,14 @@ class Study:
         for scene in self.scenes:
             print(f"errors of {scene}", file=sys.stderr, flush=True)
             self.errors[scene] = desktop(scene, self.error_size, self.settings)
-        numbers = [(n, *DEFAULT[1:]) for n in runs.numbers()]
+        numbers = [DEFAULT._replace(number=n) for n in runs.numbers()]
         for scene in self.scenes if self.quick else sorted(glob.glob("scenes/*.nff")):
             self.everywhere[scene] = desktop(scene, self.error_size, numbers, total=scene in self.errors)
 
     def measure_boards(self):
-        plan = {(scene, board, setting): runs.Run(board, scene, setting[0], size, **options(setting))
+        plan = {(scene, board, setting): runs.Run(board, scene, setting.number, size, **options(setting))
                 for scene, size in self.scenes.items() for board in BOARDS for setting in self.settings}
-        numbers = [n for n in runs.numbers() if n in [s[0] for s in self.settings]]
+        numbers = dict.fromkeys(s.number for s in self.settings)
         first = next(iter(self.scenes))
         traced = {(scene, board, n): runs.Run(board, scene, n, traced_size(board, n), profile=True)
                   for scene in self.scenes for board in BOARDS for n in numbers
@@ -134,14 +129,14 @@ class Study:
             if "refused" in run.result:
                 continue
             r, e = run.result, self.errors[scene][setting]
-            near = self.profiles.get((scene, board, setting[0])) or self.profiles[first, board, setting[0]]
+            near = self.profiles.get((scene, board, setting.number)) or self.profiles[first, board, setting.number]
             # What a pixel of the larger picture takes: adaptive sampling needs more in a small one.
             pixels = math.prod(map(int, self.error_size.split("x")))
             per_ray = r["instructions"] / pictures.draw(scene, run.size, setting)["rays"]
             large = per_ray * e["rays"] / pixels
             per = near["cycles"] / near["instructions"]
             self.rows.append({
-                "scene": scene, "size": run.size, "board": board, **dict(zip(DIALS, setting)),
+                "scene": scene, "size": run.size, "board": board, **setting._asdict(),
                 "instructions/pixel": r["instructions/pixel"], "instructions/ray": round(per_ray, 1),
                 "cycles/pixel": round(r["instructions/pixel"] * per, 1),
                 "instructions/pixel at error size": round(large, 1),
@@ -156,7 +151,7 @@ class Study:
             {**row, "error size": self.error_size, "compiler": self.inputs.compiler(row["board"]),
              "flags": board_flags(row["board"]), "commit": at} for row in self.rows], {"setting", "rays", "time/float"})
         self.write_table("desktop.csv", [
-            {"scene": scene, "size": self.error_size, **dict(zip(DIALS, setting)), **values, "compiler": compiler,
+            {"scene": scene, "size": self.error_size, **setting._asdict(), **values, "compiler": compiler,
              "flags": flags, "commit": at}
             for scene in self.everywhere
             for setting, values in {**self.everywhere[scene], **self.errors.get(scene, {})}.items() if values])

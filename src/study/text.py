@@ -5,13 +5,14 @@ import math
 import os
 import subprocess
 
+import cycles
 import figures
 import pictures
 import runs
 import study as study_file
+from settings import DEFAULT
 
 FIGURES = "src/study/figures"
-BEST = ("q32", "1", 5, 0.0014)
 
 
 def count(value):
@@ -50,41 +51,39 @@ class Numbers:
 
     def arithmetic(self, number):
         """(least, median) decibels of the arithmetic alone, over all scenes."""
-        known = sorted(e[(number, *BEST[1:])]["arithmetic psnr"] for e in self.study.everywhere.values()
-                       if e.get((number, *BEST[1:])))
+        setting = DEFAULT._replace(number=number)
+        known = sorted(e[setting]["arithmetic psnr"] for e in self.study.everywhere.values() if e.get(setting))
         return (known[0], known[len(known) // 2]) if known else None
-
-
-def with_dial(number="q32", samples="1", depth=5, cutoff=0.0014):
-    return number, samples, depth, cutoff
 
 
 def sentences(n):
     """Four, and one more where q16 is among the number systems."""
     out = []
     soft = [b for b in study_file.BOARDS if b != "mps2_an386"]
-    ratios = [f"{n.ratio(b, with_dial('float'), BEST):.0f} ({runs.BOARDS[b]})" for b in soft]
+    single = DEFAULT._replace(number="float")
+    ratios = [f"{n.ratio(b, single, DEFAULT):.0f} ({runs.BOARDS[b]})" for b in soft]
     out.append(f"Without an FPU, `float` takes {listed(ratios)} times the instructions of `q32`, which has "
                f"{n.arithmetic('q32')[1]:.0f} dB against {n.arithmetic('float')[1]:.0f} dB of the arithmetic "
                "alone (median of all scenes; 99 is equal to `double`): there is nothing to be had from "
                "`float` there.")
-    share = n.ratio("mps2_an386", with_dial("float"), BEST)
-    cycles = n.ratio("mps2_an386", with_dial("float"), BEST, "cycles/pixel at error size")
+    share = n.ratio("mps2_an386", single, DEFAULT)
+    cycles = n.ratio("mps2_an386", single, DEFAULT, "cycles/pixel at error size")
     verdict = ("`float` is the choice" if cycles < 0.95 else "either will do" if cycles < 1.05
                else "`q32` is the choice there too")
     out.append(f"With the M4's FPU `float` takes {100 * share:.0f} % of the instructions of `q32` and "
                f"{100 * cycles:.0f} % of its modelled cycles: {verdict}.")
-    many, adaptive = with_dial(samples="16"), with_dial(samples="a2,0.0625")
-    out.append(f"Samples buy most: 16 instead of 1 gain {n.gain(many, BEST):.1f} dB for "
-               f"{n.ratio('microbit', many, BEST):.1f} times the instructions (M0), adaptive sampling in two levels "
-               f"{n.gain(adaptive, BEST):.1f} dB for {n.ratio('microbit', adaptive, BEST):.1f} times.")
-    saved = [f"{100 * (1 - n.ratio('microbit', dial, BEST)):.0f} % for {-n.gain(dial, BEST):.1f} dB"
-             for dial in (with_dial(depth=3), with_dial(depth=1), with_dial(cutoff=0.02))]
+    many, adaptive = DEFAULT._replace(samples="16"), DEFAULT._replace(samples="a2,0.0625")
+    out.append(f"Samples buy most: 16 instead of 1 gain {n.gain(many, DEFAULT):.1f} dB for "
+               f"{n.ratio('microbit', many, DEFAULT):.1f} times the instructions (M0), adaptive sampling in two levels "
+               f"{n.gain(adaptive, DEFAULT):.1f} dB for {n.ratio('microbit', adaptive, DEFAULT):.1f} times.")
+    saved = [f"{100 * (1 - n.ratio('microbit', dial, DEFAULT)):.0f} % for {-n.gain(dial, DEFAULT):.1f} dB"
+             for dial in (DEFAULT._replace(depth=3), DEFAULT._replace(depth=1), DEFAULT._replace(cutoff=0.02))]
     out.append(f"Less depth saves instructions (M0) at a price in accuracy: 3 instead of 5 {saved[0]}, 1 "
                f"instead of 5 {saved[1]}; a cutoff of 0.02 instead of 0.0014 saves {saved[2]}.")
     if n.arithmetic("q16"):
+        q16 = DEFAULT._replace(number="q16")
         least, middle = n.arithmetic("q16")
-        share = [f"{100 * n.ratio(b, with_dial('q16'), BEST):.0f} % ({runs.BOARDS[b]})" for b in soft]
+        share = [f"{100 * n.ratio(b, q16, DEFAULT):.0f} % ({runs.BOARDS[b]})" for b in soft]
         out.append(f"`q16` takes {listed(share)} of the instructions of `q32`, and its arithmetic has "
                    f"{middle:.0f} dB on the scenes of `scenes/` (median; {least:.0f} at least there: where many mirrors "
                    "show one another, it has less).")
@@ -97,7 +96,7 @@ def costs(n):
     scenes = list(n.study.scenes)
     for board in study_file.BOARDS:
         for number in runs.numbers():
-            found = [n.at.get((scene, board, with_dial(number))) for scene in scenes]
+            found = [n.at.get((scene, board, DEFAULT._replace(number=number))) for scene in scenes]
             if not any(found):
                 continue
             rows.append([runs.BOARDS[board], number]
@@ -108,13 +107,8 @@ def costs(n):
     return table(head, rows)
 
 
-STEPS = ["camera", "spheres", "discs", "cones", "polygons", "patches", "nearest hit", "shading", "textures",
-         "output"]
-
-
 def steps(study):
     """Where the instructions of q32 and of soft float go on the M0 and the M3."""
-    import cycles
     scene = list(study.scenes)[-1]
     columns = [(b, n) for b in ("microbit", "mps2_an385") for n in ("q32", "float")]
     found = [study.profiles.get((scene, b, n)) for b, n in columns]
@@ -122,10 +116,8 @@ def steps(study):
         return ""
     pixels = [math.prod(map(int, study_file.traced_size(b, n).split("x"))) for b, n in columns]
     rows = []
-    for step in STEPS:
-        names = cycles.TEXTURES if step == "textures" else [step]
-        values = [sum(p["steps"].get(name, 0) for name in names) / area for p, area in zip(found, pixels)]
-        rows.append([step] + [count(v) for v in values])
+    for step in ["camera", *cycles.SHAPES.values(), *list(cycles.FILES)[1:]]:
+        rows.append([step] + [count(p["steps"].get(step, 0) / area) for p, area in zip(found, pixels)])
     rows.append(["all"] + [count(sum(p["steps"].values()) / area) for p, area in zip(found, pixels)])
     rows.append(["of these, roots and quotients"]
                 + [count(p["roots"] / area) for p, area in zip(found, pixels)])
@@ -161,7 +153,7 @@ def accuracy_report():
         truth = pictures.read(to)
         row = [f"`{scene}`"]
         for number in numbers:
-            if pictures.draw(scene, size, with_dial(number), to=to):
+            if pictures.draw(scene, size, DEFAULT._replace(number=number), to=to):
                 own = pictures.read(to)
                 off = (own != truth).any(2).sum()
                 row.append(f"{pictures.errors(own, truth)['psnr']:.0f} dB, {off}" if off else "equal")
