@@ -18,13 +18,12 @@ sys.dont_write_bytecode = True
 import cycles  # noqa: E402
 import pictures  # noqa: E402
 import runs  # noqa: E402
-from settings import options  # noqa: E402
+from settings import DEFAULT, Setting, options  # noqa: E402
 
 FOLDER = "build/plan"
 SAMPLES = ["1", "4", "9", "16", "a2,0.0625", "a3,0.03125"]
 DEPTHS = [5, 3, 2, 1]
-CUTOFF = 0.0014
-BETTER = ("double", "64", 8, CUTOFF)  # what the others are compared with
+BETTER = Setting("double", "64", 8, DEFAULT.cutoff)  # what the others are compared with
 DRAWING = 10  # seconds for pixels
 BUILDING = 48  # seconds after which no firmware is begun
 FIRST_PIXELS, WANTED_PIXELS = 1000, 24000  # to begin with, and at least where there is time
@@ -72,7 +71,7 @@ class Question:
                                    else 20 * math.log10(255 / positive("ERROR", error, "dB")))
         if self.seconds and not self.mhz:
             fail("SECONDS needs the board's clock: MHZ=48")
-        self.size, self.cutoff = given.get("SIZE") or "-", given.get("CUTOFF") or str(CUTOFF)
+        self.size, self.cutoff = given.get("SIZE") or "-", given.get("CUTOFF") or str(DEFAULT.cutoff)
         self.compile("double", fail)
 
     def compile(self, number, refuse=lambda text, status: text):
@@ -93,7 +92,7 @@ class Pixels:
         self.path = f"{FOLDER}/{key}.pixels.json"
         self.question = question
         self.head, known = runs.kept(self.path) or (None, [])
-        self.known = {tuple(s): of for s, of in known}
+        self.known = {Setting(*s): of for s, of in known}
         if self.head is None:
             self.measure([], 0, 1)
 
@@ -138,30 +137,31 @@ class Pixels:
 
 def kind_of(setting):
     """Settings of a kind differ in numbers only, from which compilers may make other code."""
-    number, samples, depth, _ = setting
-    return number, samples if samples == "1" else "adaptive" if samples[0] == "a" else "grid", depth == 1
+    way = "1" if setting.samples == "1" else "adaptive" if setting.samples[0] == "a" else "grid"
+    return setting.number, way, setting.depth == 1
 
 
 class Plan:
     def __init__(self, question):
         self.question, self.inputs = question, runs.Inputs()
         self.refused = {n: why for n in runs.numbers() if (why := question.compile(n))}
-        self.settings = [(n, s, d, question.cutoff) for n in runs.numbers() if n not in self.refused
+        self.settings = [Setting(n, s, d, question.cutoff) for n in runs.numbers() if n not in self.refused
                          for s in SAMPLES for d in DEPTHS]
         self.pixels = Pixels(question, self.settings)
         # Double is never cheaper than float.
-        pairs = [("double", *s[1:]) for s in self.settings if s[0] == "float" and s[1] in "14" and s[2] == 5]
+        pairs = [(s, s._replace(number="double")) for s in self.settings
+                 if s.number == "float" and s.samples in "14" and s.depth == 5]
         self.count = math.ceil(FIRST_PIXELS / self.pixels.head["length"])
-        self.pixels.draw(pairs + [("float", *s[1:]) for s in pairs], self.count)
-        if all(self.pixels.decibels(s) < self.pixels.decibels(("float", *s[1:])) + LEAST_GAIN for s in pairs):
+        self.pixels.draw([s for pair in pairs for s in pair], self.count)
+        if all(self.pixels.decibels(double) < self.pixels.decibels(single) + LEAST_GAIN for single, double in pairs):
             self.refused["double"] = "it is not more accurate than float"
-            self.settings = [s for s in self.settings if s[0] != "double"]
+            self.settings = [s for s in self.settings if s.number != "double"]
         self.size = "{width}x{height}".format(**self.pixels.head)
         self.per_ray, self.cycles = {}, {}  # by setting and by kind, instructions; by number, cycles of one
         self.built = {}  # by setting: flash, ram, stack_bound; or what was refused
 
     def run(self, setting, size, **more):
-        return runs.Run(self.question.board, self.question.scene, setting[0], size, **more, **options(setting))
+        return runs.Run(self.question.board, self.question.scene, setting.number, size, **more, **options(setting))
 
     def perform(self, todo):
         """[(setting, run), ...], two at a time while there is time; those that were."""
@@ -183,11 +183,10 @@ class Plan:
 
     def ray(self, setting):
         """Instructions of a ray, or of one like it before they are known."""
-        like = (setting, kind_of(setting), (setting[0], "1", False))
+        like = (setting, kind_of(setting), (setting.number, "1", False))
         return next((self.per_ray[k] for k in like if k in self.per_ray), GUESS)
 
     def rays_at(self, setting, size):
-        """As the desktop counts them."""
         return pictures.draw(self.question.scene, size, setting)["rays"]
 
     def learn(self, setting, run):
@@ -205,11 +204,11 @@ class Plan:
 
     def cost(self, setting):
         """Instructions, or cycles where they are known."""
-        return self.instructions(setting) * self.cycles.get(setting[0], 1)
+        return self.instructions(setting) * self.cycles.get(setting.number, 1)
 
     def frontier(self, slack=1):
         """Settings that no other is as accurate as and cheaper than; by `slack`, surely so. The cheapest first."""
-        able = [s for s in self.settings if s[0] not in self.refused and "refused" not in self.built.get(s, {})]
+        able = [s for s in self.settings if s.number not in self.refused and "refused" not in self.built.get(s, {})]
         found = {s: (self.cost(s), self.pixels.decibels(s)) for s in able}
         out, gain, asked = [], LEAST_GAIN if slack == 1 else 0, self.question.decibels or 0
         for s in sorted(able, key=lambda s: (found[s][0], -found[s][1])):
@@ -225,21 +224,22 @@ class Plan:
         self.pixels.draw(self.settings, count)
         # Fewer levels than the rays have are a setting of their own only if they change something.
         known = {s: self.pixels.known[s][:count] for s in self.settings}
-        self.settings = [s for s in self.settings if s[2] == 5 or known[s] != known[s[0], s[1], 5, s[3]]]
-        first = [next(s for s in self.settings if s[0] == n) for n in runs.numbers() if n not in self.refused]
+        self.settings = [s for s in self.settings if s.depth == 5 or known[s] != known[s._replace(depth=5)]]
+        first = [next(s for s in self.settings if s.number == n)
+                 for n in runs.numbers() if n not in self.refused]
         say(f"building {len(first)} number systems for {self.question.board}")
         for s, run in self.perform([(s, self.run(s, size=self.small(s))) for s in first]):
             self.learn(s, run)
             if "refused" in run.result:
-                self.refused[s[0]] = run.result["refused"]
+                self.refused[s.number] = run.result["refused"]
         for s in first:
             if s not in self.per_ray:
-                self.refused.setdefault(s[0], "there was no time to build it")
+                self.refused.setdefault(s.number, "there was no time to build it")
         if self.question.mhz and self.question.board in cycles.TIMINGS:
-            calls = {s[0] for s in self.frontier(SURE)}
-            for s, run in self.perform([(s, self.run(s, size="8x6", profile=True)) for s in first if s[0] in calls]):
+            calls = {s.number for s in self.frontier(SURE)}
+            for s, run in self.perform([(s, self.run(s, size="8x6", profile=True)) for s in first if s.number in calls]):
                 if "refused" not in run.result:
-                    self.cycles[s[0]] = run.result["cycles"] / run.result["instructions"]
+                    self.cycles[s.number] = run.result["cycles"] / run.result["instructions"]
             self.cycles = {n: self.cycles.get(n, max(self.cycles.values(), default=1)) for n, *_ in first}
         begin, last = time.monotonic(), 0
         while self.pixels.count < self.pixels.head["combs"] and time.monotonic() + 2 * last - begin < DRAWING:
@@ -285,7 +285,7 @@ class Plan:
             not q.decibels or self.pixels.decibels(setting) >= q.decibels)
 
     def command(self, setting, size=None):
-        words = {"BOARD": self.question.board, "SCENE": self.question.scene, "NUMBER": setting[0],
+        words = {"BOARD": self.question.board, "SCENE": self.question.scene, "NUMBER": setting.number,
                  "SIZE": size or self.size, **options(setting)}
         return "make run " + " ".join(f"{k}={v}" for k, v in words.items())
 
@@ -297,12 +297,12 @@ def table(plan, frontier, chosen):
         print(f"without {n}: {why}")
     if not frontier:
         return
-    print(f"dB: against `build/qray {q.scene} {' '.join(pictures.words(BETTER))} -s {plan.size}`, by {plan.pixels.count * head['length']} of "
-          f"{head['width'] * head['height']} pixels; 99 is no difference")
+    print(f"dB: against `build/qray {q.scene} {' '.join(pictures.words(BETTER))} -s {plan.size}`, by "
+          f"{plan.pixels.count * head['length']} of {head['width'] * head['height']} pixels; 99 is no difference")
     if q.mhz:
-        known = ", ".join(f"{n} {c:.2f}" for n, c in plan.cycles.items() if n in [s[0] for s in frontier])
-        known = f"by the core's timings ({known}), memory that never waits" if known else "unknown for this core, taken as 1"
-        print(f"seconds: at {q.mhz:g} MHz, cycles an instruction {known}")
+        known = ", ".join(f"{n} {c:.2f}" for n, c in plan.cycles.items() if n in [s.number for s in frontier])
+        known = known and f"by the core's timings ({known}), memory that never waits"
+        print(f"seconds: at {q.mhz:g} MHz, cycles an instruction {known or 'unknown for this core, taken as 1'}")
     print(f"  {'number':7}{'samples':>18}{'depth':>6}{'instructions':>16}{'seconds' * bool(q.mhz):>10}{'dB':>7}"
           f"{'flash':>8}{'RAM':>7}{'stack':>7}")
     rough = False
@@ -311,8 +311,8 @@ def table(plan, frontier, chosen):
         rough |= not built
         sizes = [f"{built[k]}" for k in ("flash", "ram", "stack_bound")] if built else ["~"] * 3
         seconds = f"{plan.seconds(s):.3g}" if q.mhz else ""
-        samples = f"adaptive {s[1][1:]}" if s[1][0] == "a" else s[1]
-        print(f"{'*' if s == chosen else ' '} {s[0]:7}{samples:>18}{s[2]:>6}{'' if built else '~':>2}"
+        samples = s.samples.replace("a", "adaptive ")
+        print(f"{'*' if s == chosen else ' '} {s.number:7}{samples:>18}{s.depth:>6}{'' if built else '~':>2}"
               f"{plan.instructions(s):14.0f}{seconds:>10}{plan.pixels.decibels(s):7.1f}"
               f"{sizes[0]:>8}{sizes[1]:>7}{sizes[2]:>7}")
     if rough:
@@ -337,26 +337,22 @@ def what_would_have_to_give(plan, frontier):
     q = plan.question
     if not frontier:
         return nothing_fits(plan)
-    out = []
-    if q.decibels:
-        able = [s for s in frontier if plan.pixels.decibels(s) >= q.decibels]
-        if not able:
-            best = frontier[-1]
-            return [f"nothing has {q.decibels:.1f} dB; the most accurate has {plan.pixels.decibels(best):.1f} dB:",
-                    plan.command(best)]
-        mhz, size = q.mhz * plan.seconds(able[0]) / q.seconds, smaller(plan, able[0])
-        out.append(f"{q.decibels:.1f} dB take {plan.seconds(able[0]):.3g} s; {mhz:.3g} MHz would do"
-                   + ", or a smaller picture (of other dB):" * bool(size))
-        out += [plan.command(able[0], size)] if size else []
-        quick = [s for s in frontier if plan.seconds(s) <= q.seconds]
-        if quick:
-            out += [f"or be content with {plan.pixels.decibels(quick[-1]):.1f} dB:", plan.command(quick[-1])]
-        return out
-    least = frontier[0]
-    size = smaller(plan, least)
-    out.append(f"nothing takes {q.seconds:g} s or less; the cheapest takes {plan.seconds(least):.3g} s; "
-               f"{q.mhz * plan.seconds(least) / q.seconds:.3g} MHz would do" + ", or a smaller picture:" * bool(size))
-    return out + ([plan.command(least, size)] if size else [])
+    able = [s for s in frontier if plan.pixels.decibels(s) >= (q.decibels or 0)]
+    if not able:
+        best = frontier[-1]
+        return [f"nothing has {q.decibels:.1f} dB; the most accurate has {plan.pixels.decibels(best):.1f} dB:",
+                plan.command(best)]
+    seconds, size = plan.seconds(able[0]), smaller(plan, able[0])
+    out = [f"{q.decibels:.1f} dB take {seconds:.3g} s" if q.decibels
+           else f"nothing takes {q.seconds:g} s or less; the cheapest takes {seconds:.3g} s"]
+    out[0] += f"; {q.mhz * seconds / q.seconds:.3g} MHz would do"
+    if size:
+        out[0] += ", or a smaller picture" + " (of other dB)" * bool(q.decibels) + ":"
+        out.append(plan.command(able[0], size))
+    quick = [s for s in frontier if plan.seconds(s) <= q.seconds]
+    if quick:
+        out += [f"or be content with {plan.pixels.decibels(quick[-1]):.1f} dB:", plan.command(quick[-1])]
+    return out
 
 
 def nothing_fits(plan):
@@ -364,12 +360,12 @@ def nothing_fits(plan):
     w, h = plan.pixels.head["width"], plan.pixels.head["height"]
     why = next((b["refused"] for b in plan.built.values()), None) or next(reversed(plan.refused.values()))
     out = [f"no setting fits {plan.question.board}: {why}"]
-    numbers = [n for n in runs.numbers() if any(s[0] == n for s in plan.settings)]
+    numbers = [n for n in runs.numbers() if any(s.number == n for s in plan.settings)]
     for step in range(16):
         size = f"{max(1, int(w * 0.8 ** step))}x{max(1, int(h * 0.8 ** step))}"
         for n in numbers:
             for depth in (5, 1):
-                setting = (n, "1", depth, plan.question.cutoff)
+                setting = Setting(n, "1", depth, plan.question.cutoff)
                 run = plan.run(setting, size=size, build_only=True)
                 run.perform(plan.inputs)
                 if "refused" not in run.result:
