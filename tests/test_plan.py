@@ -85,7 +85,7 @@ class Plan(unittest.TestCase):
         # One that was drawn whole, and one that was not.
         for row in (self.rows[0], self.rows[-1]):
             self.assertTrue(row["built"])
-            status, out, err = make("run", f"BOARD={BOARD}", f"SCENE={SCENE}", f"SIZE={SIZE}", "RAYS=no", *row["make"])
+            status, out, err = make("run", f"BOARD={BOARD}", f"SCENE={SCENE}", f"SIZE={SIZE}", *row["make"])
             self.assertEqual(status, 0, err)
             found = dict(re.findall(r"^(\w+): (\d+)$", out, re.M))
             self.assertEqual(row["sizes"], [found[k] for k in ("flash", "ram", "stack_bound")])
@@ -98,7 +98,7 @@ class Plan(unittest.TestCase):
         self.assertNotIn("make run", out)
         cycles = float(re.search(r"q16 ([\d.]+)", out)[1])
         nearest = re.search(r"^make run (.*NUMBER=q16.*)$", err, re.M)[1].split()
-        status, out, _ = make("run", "RAYS=no", *nearest)
+        status, out, _ = make("run", *nearest)
         self.assertEqual(status, 0)
         self.assertLess(cycles * float(re.search(r"instructions: (\d+)", out)[1]), 1e6)
         status, out, err = plan("ERROR=98dB")

@@ -3,7 +3,7 @@
 #   make size BOARD=... SCENE=... NUMBER=...                   build, and report what is known without running
 #   make profile BOARD=... SCENE=... NUMBER=...                build, trace in QEMU, and say where instructions go
 # Optional: SIZE=WxH SAMPLES=N ADAPTIVE=LEVELS[,THRESHOLD] DEPTH=N CUTOFF=W, NAME= of the outputs,
-# OUTPUT=uart (the image for a real board), RAYS=no (do not build and run the image that counts rays).
+# OUTPUT=uart (the image for a real board).
 # Without SCENE, the board draws its test card.
 FW_SRC    := src/boards
 FW_BOARDS := $(patsubst $(FW_SRC)/%/board.mk,%,$(wildcard $(FW_SRC)/*/board.mk))
@@ -24,7 +24,6 @@ include $(FW_SRC)/$(BOARD)/board.mk
 NUMBER  ?= $(if $(SCENE),q32,float)
 NAME    ?= $(if $(SCENE),$(basename $(notdir $(SCENE))),card)
 OUTPUT  ?= semihosting
-RAYS    ?= $(if $(SCENE),yes,no)
 
 # What is wrong, each in one line. Names are of letters that neither make nor a shell takes for anything else.
 FW_DOLLAR := $$
@@ -49,9 +48,7 @@ $(error make profile has no OUTPUT=uart: it needs an image that ends)
 endif
 FW_SIZE := $(subst x, ,$(SIZE))
 ifneq ($(if $(SCENE),,$(SIZE)),)
-FW_REST := $(SIZE)
-$(foreach d,0 1 2 3 4 5 6 7 8 9,$(eval FW_REST := $(subst $d,,$(FW_REST))))
-ifneq ($(FW_REST) $(words $(FW_SIZE)) $(filter 0,$(FW_SIZE)),x 2 )
+ifeq ($(shell echo '$(SIZE)' | grep -Ex '[1-9][0-9]*x[1-9][0-9]*'),)
 $(error SIZE=$(SIZE): expected WIDTHxHEIGHT)
 endif
 endif
@@ -77,7 +74,8 @@ FW_LINK     := $(BOARD_CPU) -nostdlib -Wl,--gc-sections,--fatal-warnings \
 FW_COMMON := start memory $(BOARD_CORE) host_fault host_text
 FW_OBJS   := $(addprefix $(FW_OBJ)/,$(addsuffix .o,$(FW_COMMON) \
     $(if $(filter uart,$(OUTPUT)),output_uart $(BOARD_UART),host_semihosting $(BOARD_COUNTER))))
-FW_COUNT  := $(if $(filter-out uart,$(OUTPUT)),$(if $(filter yes,$(RAYS)),$(FW_STEM)-rays.elf))
+# The desktop draws the same picture, and counts its rays.
+FW_COUNT  := build/qray $(SCENE) $(FW_OPTIONS) -q --stats -o /dev/null 2>&1 | sed -n 's/^rays: //p'
 FW_REPORT  = python3 $(FW_SRC)/common/run.py --tools $(BOARD_TOOLS) --tick $(BOARD_TICK) $(if $(UNBOUNDED),--unbounded) $(FW_ELF)
 
 # What the outputs were made with: a change of options remakes them.
@@ -90,13 +88,11 @@ $(FW_OBJ)/config: FORCE
 ifneq ($(SCENE),)
 $(FW_STEM).hpp: $(SCENE) $(wildcard $(dir $(SCENE))*.obj) build/qray $(FW_OBJ)/config
 	@build/qray compile $(SCENE) $(FW_OPTIONS) -o $@
-$(FW_OBJ)/main.o $(FW_OBJ)/main-rays.o: $(FW_STEM).hpp
+$(FW_OBJ)/main.o: $(FW_STEM).hpp
 endif
 
 $(FW_OBJ)/main.o: $(FW_MAIN) $(FW_OBJ)/config | firmware-tools
 	@$(BOARD_TOOLS)g++ $(FW_FLAGS) $(FW_DEFINES) -MMD -MP -c $< -o $@
-$(FW_OBJ)/main-rays.o: $(FW_MAIN) $(FW_OBJ)/config | firmware-tools
-	@$(BOARD_TOOLS)g++ $(FW_FLAGS) $(FW_DEFINES) -DQRAY_COUNT_RAYS -MMD -MP -c $< -o $@
 $(FW_OBJ)/%.o: $(FW_SRC)/common/%.cpp $(FW_OBJ)/config | firmware-tools
 	@$(BOARD_TOOLS)g++ $(FW_FLAGS) -MMD -MP -c $< -o $@
 $(FW_OBJ)/memory.o: FW_FLAGS += -fno-tree-loop-distribute-patterns
@@ -109,14 +105,12 @@ FW_LINKED = 2> $(FW_OBJ)/$(@F).link || \
       echo "$${small:-$$(cat $(FW_OBJ)/$(@F).link)}" >&2; exit 1; }
 $(FW_ELF): $(FW_OBJ)/main.o $(FW_OBJS) $(FW_SCRIPTS)
 	@$(BOARD_TOOLS)g++ $(FW_LINK) -Wl,-Map=$(@:.elf=.map) $(filter %.o,$^) -lgcc -o $@ $(FW_LINKED)
-$(FW_STEM)-rays.elf: $(FW_OBJ)/main-rays.o $(FW_OBJS) $(FW_SCRIPTS)
-	@$(BOARD_TOOLS)g++ $(FW_LINK) $(filter %.o,$^) -lgcc -o $@ $(FW_LINKED)
 $(FW_ELF:.elf=.hex): $(FW_ELF)
 	@$(BOARD_TOOLS)objcopy -O ihex $< $@
 
-run: $(FW_ELF) $(FW_COUNT) $(if $(filter uart,$(OUTPUT)),$(FW_ELF:.elf=.hex)) | firmware-qemu
-	@$(FW_REPORT) --qemu '$(BOARD_QEMU)' $(if $(filter uart,$(OUTPUT)),--uart) \
-	    $(if $(FW_COUNT),--rays $(FW_COUNT)) --picture $(FW_STEM).ppm
+run: $(FW_ELF) $(if $(filter uart,$(OUTPUT)),$(FW_ELF:.elf=.hex)) | firmware-qemu
+	@$(FW_REPORT) --qemu '$(BOARD_QEMU)' --picture $(FW_STEM).ppm \
+	    $(if $(filter uart,$(OUTPUT)),--uart,$(if $(SCENE),--rays $$($(FW_COUNT))))
 size: $(FW_ELF)
 	@$(FW_REPORT)
 describe:

@@ -22,15 +22,8 @@ int main()
     };
 #ifndef QRAY_SCENE_HEADER
     const bool whole = test_card::render(row, sink);
-#elif !defined(QRAY_COUNT_RAYS)
-    const bool whole = qray::render<qray::Rgb888>(scene::scene, row, 1, sink);
 #else
-    uint64_t rays = 0;
-    auto count = [&rays](qray::RayKind) { ++rays; };
-    const bool whole = qray::render<qray::Rgb888>(scene::scene, row, 1, sink, count);
-    board::say("rays: ");
-    board::say_decimal(rays);
-    board::say("\n");
+    const bool whole = qray::render<qray::Rgb888>(scene::scene, row, 1, sink);
 #endif
     return whole && board::close_picture() ? 0 : 1;
 }

@@ -11,7 +11,7 @@ def fail(text):
 
 # What an outer make says to its own children, and what firmware is made of.
 OUTER = {"MAKEFLAGS", "MAKELEVEL", "MFLAGS", "BOARD", "SCENE", "NUMBER", "SIZE", "SAMPLES", "ADAPTIVE", "DEPTH",
-         "CUTOFF", "NAME", "RAYS", "OUTPUT"}
+         "CUTOFF", "NAME", "OUTPUT"}
 
 
 def environment():

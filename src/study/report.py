@@ -22,7 +22,7 @@ BOARD_SCENES = {"scenes/floor.nff": "32x24", "scenes/showcase.nff": "16x12"}
 
 def boards():
     out = []
-    plan = [(scene, board, number, runs.Run(board, scene, number, size, rays=True))
+    plan = [(scene, board, number, runs.Run(board, scene, number, size))
             for scene, size in BOARD_SCENES.items() for board in runs.BOARDS for number in runs.numbers()]
     runs.perform([run for *_, run in plan])
     for scene, size in BOARD_SCENES.items():

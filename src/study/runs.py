@@ -91,9 +91,9 @@ failures = []
 class Run:
     """A firmware and what running it measures; `profile` runs it traced instead, `build_only` not at all."""
 
-    def __init__(self, board, scene, number, size, profile=False, rays=False, build_only=False, **options):
+    def __init__(self, board, scene, number, size, profile=False, build_only=False, **options):
         self.board, self.scene, self.number, self.size = board, scene, number, size
-        self.profile, self.rays, self.build_only = profile, rays, build_only
+        self.profile, self.build_only = profile, build_only
         self.options = {k: str(v) for k, v in options.items() if v is not None}
         assert all(k in OPTIONS for k in self.options)
         self.result = None
@@ -106,14 +106,14 @@ class Run:
 
     def key(self, inputs):
         return hash_of(inputs.sources, inputs.compiler(self.board), self.board, text_of(self.scene), self.number,
-                       self.size, self.profile and inputs.tracing, self.rays, self.build_only,
+                       self.size, self.profile and inputs.tracing, self.build_only,
                        sorted(self.options.items()))
 
     def command(self, name):
         target = "size" if self.profile or self.build_only else "run"
         return ["make", "--no-print-directory", target, f"BOARD={self.board}",
                 f"SCENE={self.scene}", f"NUMBER={self.number}", f"SIZE={self.size}", f"NAME={name}",
-                f"RAYS={'yes' if self.rays else 'no'}", *(f"{k}={v}" for k, v in self.options.items())]
+                *(f"{k}={v}" for k, v in self.options.items())]
 
     def is_known(self, inputs):
         return os.path.exists(f"{CACHE}/{self.key(inputs)}.json")

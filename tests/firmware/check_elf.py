@@ -90,7 +90,7 @@ def compiler_frames(folder):
     """Frame bytes by symbol by the compiler's -fcallgraph-info=su, and names of frames of unknown size."""
     frames, dynamic = {}, []
     for file in sorted(os.listdir(folder)):
-        if file.endswith(".ci") and not file.endswith("-rays.ci"): # of the program that counts rays, maybe an old one
+        if file.endswith(".ci"):
             with open(os.path.join(folder, file)) as text:
                 for title, size, kind in re.findall(
                         r'node: \{ title: "([^"]*)" label: "[^"]*\\n(\d+) bytes \(([a-z,]+)\)', text.read()):

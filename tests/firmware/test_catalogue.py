@@ -91,7 +91,7 @@ class Catalogue(unittest.TestCase):
             with open(path, "w") as file:
                 file.write(PICTURES[name][0])
             status, text = make("-o", "build/qray", "run", "BOARD=microbit", f"SCENE={path}", f"NUMBER={number}",
-                                "RAYS=no", *PICTURES[name][1])
+                                *PICTURES[name][1])
             if status != 0:
                 raise RuntimeError(text)
             with open(f"build/microbit/{name}-{number}.ppm", "rb") as file:

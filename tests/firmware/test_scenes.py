@@ -63,7 +63,7 @@ def faults(board, scene, number, expected):
     """What is wrong with a board's picture and its firmware."""
     elf = f"build/{board}/{scene}-{number}.elf"
     status, text = make("-o", "build/qray", "run", f"BOARD={board}", f"SCENE=scenes/{scene}.nff",
-                        f"NUMBER={number}", f"SIZE={size(scene)}", "RAYS=no", OPTIONS.get(scene, "--silent"))
+                        f"NUMBER={number}", f"SIZE={size(scene)}", OPTIONS.get(scene, "--silent"))
     if status != 0:
         return [text]
     with open(elf.removesuffix("elf") + "ppm", "rb") as file:

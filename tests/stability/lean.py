@@ -87,7 +87,7 @@ class LeanRun(runs.Run):
     """A firmware run with headers of its own, which keeps what the picture was."""
 
     def __init__(self, folder, *arguments):
-        super().__init__(*arguments, rays=True)
+        super().__init__(*arguments)
         self.folder = folder
 
     def key(self, inputs):

@@ -1,6 +1,6 @@
 """Runs a firmware in QEMU and reports, one `name: value` a line, what it measured and what its file holds.
 
-    run.py --tools PREFIX --tick T [--qemu COMMAND --picture OUT.ppm [--rays COUNTED.elf] [--uart]] FILE.elf
+    run.py --tools PREFIX --tick T [--qemu COMMAND --picture OUT.ppm [--rays N] [--uart]] FILE.elf
 
 Without --qemu it reports sizes and the stack's bound only. A picture appears under its name only when whole.
 """
@@ -36,9 +36,8 @@ def parts_of(path):
 class Progress:
     """How much of a picture is there, and the time left, in a line on a terminal that is wiped at the end."""
 
-    def __init__(self, what):
-        self.what, self.shown, self.width = what, sys.stderr.isatty(), 0
-        self.start = time.monotonic()
+    def __init__(self):
+        self.shown, self.width, self.start = sys.stderr.isatty(), 0, time.monotonic()
 
     def update(self, there, whole):
         past = time.monotonic() - self.start
@@ -46,7 +45,7 @@ class Progress:
             return
         minutes, seconds = divmod(round(past * (whole - there) / there), 60)
         left = f"{minutes} min {seconds} s" if minutes else f"{seconds} s"
-        text = f"{self.what}: {100 * there // whole} %, {left} left"
+        text = f"drawing: {100 * there // whole} %, {left} left"
         print("\r" + text.ljust(self.width), end="", file=sys.stderr, flush=True)
         self.width = len(text)
 
@@ -55,9 +54,9 @@ class Progress:
             print("\r" + " " * self.width + "\r", end="", file=sys.stderr, flush=True)
 
 
-def emulate(command, image, picture, seconds, what, is_over=lambda there, whole: False):
+def emulate(command, image, picture, seconds, is_over=lambda there, whole: False):
     """Runs to the emulator's end, or until the picture is_over; returns its status, or None, and what it said."""
-    progress, end = Progress(what), time.monotonic() + seconds
+    progress, end = Progress(), time.monotonic() + seconds
     with tempfile.TemporaryFile() as output:
         process = subprocess.Popen(command + ["-monitor", "none", "-kernel", image], stdin=subprocess.DEVNULL,
                                    stdout=output, stderr=subprocess.STDOUT)
@@ -78,18 +77,18 @@ def emulate(command, image, picture, seconds, what, is_over=lambda there, whole:
         return process.returncode, output.read().decode(errors="replace")
 
 
-def run_semihosting(command, image, picture, seconds, what):
+def run_semihosting(command, image, picture, seconds):
     """Runs to the firmware's own exit; returns its `name: value` lines."""
     name = picture.replace(",", ",,")
     status, said = emulate(command + ["-nographic", "-serial", "none", "-icount", "shift=0", "-semihosting-config",
-                                      f"enable=on,target=native,arg={name}"], image, picture, seconds, what)
+                                      f"enable=on,target=native,arg={name}"], image, picture, seconds)
     if status != 0:
         sys.stderr.write(said)
         fail(f"{image}: exit status {status}")
     return dict(re.findall(r"^(\w+): (\d+)$", said, re.M))
 
 
-def run_uart(command, image, picture, seconds, what):
+def run_uart(command, image, picture, seconds):
     """Captures the serial port until the picture is whole, as a board has no way to end the emulator."""
     def message():
         if os.path.exists(picture):
@@ -102,8 +101,7 @@ def run_uart(command, image, picture, seconds, what):
         time.sleep(0.1)
         return os.path.getsize(picture) == there  # nothing has followed it
 
-    status, _ = emulate(command + ["-display", "none", "-serial", f"file:{picture}"], image, picture, seconds, what,
-                        is_over)
+    status, _ = emulate(command + ["-display", "none", "-serial", f"file:{picture}"], image, picture, seconds, is_over)
     if message():
         fail(f"{image}: qray: {message()[1].decode(errors='replace')}")
     if status is not None:
@@ -118,7 +116,7 @@ def main():
     parser.add_argument("--tick", type=float, required=True)
     parser.add_argument("--qemu")
     parser.add_argument("--picture")
-    parser.add_argument("--rays")
+    parser.add_argument("--rays", type=int)
     parser.add_argument("--uart", action="store_true")
     parser.add_argument("--unbounded", action="store_true", help="run even if the stack has no bound")
     parser.add_argument("--seconds", type=float, default=600)
@@ -136,13 +134,11 @@ def main():
 
     report = {"flash": sizes["flash"], "ram": sizes["ram"]}
     if args.qemu:
-        part, counted = args.picture + ".part", args.picture + ".rays"
-        for old in (part, counted):
-            if os.path.exists(old):
-                os.remove(old)
-        command = shlex.split(args.qemu)
+        part = args.picture + ".part"
+        if os.path.exists(part):
+            os.remove(part)
         run = run_uart if args.uart else run_semihosting
-        values = run(command, args.image, part, args.seconds, "drawing")
+        values = run(shlex.split(args.qemu), args.image, part, args.seconds)
         there, whole, pixels = parts_of(part)
         if there != whole:
             fail(f"{args.image}: the picture is not whole: {there} bytes")
@@ -155,18 +151,13 @@ def main():
     if args.qemu:
         report["pixels"] = pixels
         if args.rays:
-            counts = run_semihosting(command, args.rays, counted, args.seconds, "counting rays")
-            report["rays"] = int(counts["rays"])
-            with open(part, "rb") as one, open(counted, "rb") as other:
-                if one.read() != other.read():
-                    fail(f"{args.rays}: counting rays changed the picture")
-            os.remove(counted)
+            report["rays"] = args.rays
         if "ticks" in values:
             instructions = int(values["ticks"]) * args.tick
             report["instructions"] = round(instructions)
             report["instructions/pixel"] = f"{instructions / pixels:.1f}"
             if args.rays:
-                report["instructions/ray"] = f"{instructions / report['rays']:.1f}"
+                report["instructions/ray"] = f"{instructions / args.rays:.1f}"
         os.replace(part, args.picture)
         report["picture"] = args.picture
     for name, value in report.items():
