@@ -25,6 +25,21 @@ def make(*arguments):
     return result.returncode, result.stdout
 
 
+def problems(text, reports):
+    """What is missing or not known in the tables."""
+    out = [f"report:{name} is empty" for name, content
+           in re.findall(r"<!-- report:(\S+) -->(.*?)<!-- /report -->", text, re.S)
+           if name not in reports and not content.strip()]
+    for name, (_, needs) in reports.items():
+        found = report.marker(name).search(text)
+        if found is None:
+            out.append(f"no '<!-- report:{name} -->' ... '<!-- /report -->' in {' or '.join(report.PAGES)}")
+            continue
+        out += [f"report:{name} says nothing of '{n}'; `make report` writes it again"
+                for n in needs() if n not in found[0]]
+    return out
+
+
 class Parts(unittest.TestCase):
     def test_frontier(self):
         points = [(5, 30), (1, 10), (4, 10), (2, 20), (3, 15), (5, 31), (9, 31)]
@@ -44,10 +59,10 @@ class Parts(unittest.TestCase):
 
     def test_report_finds_stale_tables(self):
         reports = {"one": (None, lambda: ["a", "b"])}
-        self.assertEqual(report.problems("<!-- report:one -->\na b\n<!-- /report -->", reports), [])
-        self.assertEqual(len(report.problems("<!-- report:one -->\na\n<!-- /report -->", reports)), 1)
-        self.assertEqual(len(report.problems("", reports)), 1)
-        self.assertEqual(len(report.problems("<!-- report:one -->\na b\n<!-- /report -->\n"
+        self.assertEqual(problems("<!-- report:one -->\na b\n<!-- /report -->", reports), [])
+        self.assertEqual(len(problems("<!-- report:one -->\na\n<!-- /report -->", reports)), 1)
+        self.assertEqual(len(problems("", reports)), 1)
+        self.assertEqual(len(problems("<!-- report:one -->\na b\n<!-- /report -->\n"
                                              "<!-- report:two -->\n<!-- /report -->", reports)), 1)
 
     def test_labels_name_what_differs(self):
@@ -58,7 +73,7 @@ class Parts(unittest.TestCase):
 
 class Readme(unittest.TestCase):
     def test_tables_are_whole(self):
-        self.assertEqual(report.problems(report.pages(), report.REPORTS), [])
+        self.assertEqual(problems(report.pages(), report.REPORTS), [])
 
     def test_figures_are_there(self):
         found = re.findall(r"\]\((?:src/study/)?(figures/[^)]*)\)", report.pages())

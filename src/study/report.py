@@ -2,7 +2,7 @@
 
     <!-- report:NAME -->  ...  <!-- /report -->
 
-report.py [NAME...]    only these; report.py --check    only that each marker holds all that it should name"""
+report.py [NAME...]    only these"""
 
 import os
 import re
@@ -78,26 +78,7 @@ def marker(name):
 
 def pages():
     """The pages that hold tables, as one text."""
-    text = ""
-    for page in filter(os.path.exists, PAGES):
-        with open(page) as file:
-            text += file.read()
-    return text
-
-
-def problems(text, reports):
-    """What is missing or not known in the tables."""
-    out = [f"report:{name} is empty" for name, content
-           in re.findall(r"<!-- report:(\S+) -->(.*?)<!-- /report -->", text, re.S)
-           if name not in reports and not content.strip()]
-    for name, (_, needs) in reports.items():
-        found = marker(name).search(text)
-        if found is None:
-            out.append(f"no '<!-- report:{name} -->' ... '<!-- /report -->' in {' or '.join(PAGES)}")
-            continue
-        out += [f"report:{name} says nothing of '{n}'; `make report` writes it again"
-                for n in needs() if n not in found[0]]
-    return out
+    return "".join(runs.text_of(page) for page in PAGES)
 
 
 def put(name, made, path):
@@ -105,8 +86,7 @@ def put(name, made, path):
     with open(path, "w") as file:
         file.write(made)
     for page in filter(os.path.exists, PAGES):
-        with open(page) as file:  # as it is now: others may have edited it meanwhile
-            text = file.read()
+        text = runs.text_of(page)  # as it is now: others may have edited it meanwhile
         # Paths of figures are those of the repository; a page says them from where it stands.
         here = made.replace("](src/study/", "](") if page.startswith("src/study/") else made
         new, number = marker(name).subn(lambda m: m[1] + here + m[2], text)
@@ -120,10 +100,6 @@ def put(name, made, path):
 
 
 def main():
-    if sys.argv[1:] == ["--check"]:
-        found = problems(pages(), REPORTS)
-        print("\n".join(found) if found else "all reports are whole")
-        return found != []
     names = sys.argv[1:] or list(REPORTS)
     os.makedirs(FOLDER, exist_ok=True)
     for name in names:

@@ -93,29 +93,24 @@ class Profile:
                 self.classes.append((address, kind, number))
 
 
+# Of an instruction's name, the first that matches.
+CLASSES = {
+    "load or store several": r"push|pop|stm|ldm|vpush|vpop",
+    "load": r"ldr|vldr|l[bhw]u?$|flw|fld|lr\.",
+    "store": r"str|vstr|s[bhw]$|fsw|fsd|sc\.",
+    "long multiply": r"[us]mull|[us]mlal|umaal|mulhs?u?$",
+    "multiply": r"mul|mla|mls|smul|smla",
+    "divide": r"[us]div|divu?$|remu?$",
+    "float divide or root": r"vdiv|vsqrt",
+    "float": r"v|f\w+\.[sd]",
+}
+FLOWS = {elf_file.CALL: "call", elf_file.RETURN: "return", elf_file.BRANCH: "branch", elf_file.JUMP: "jump",
+         elf_file.SWITCH: "jump", elf_file.INDIRECT: "jump"}
+
+
 def classify(i):
-    name = re.sub(r"^c\.", "", i.name)
-    if i.kind in (elf_file.CALL, elf_file.RETURN, elf_file.JUMP, elf_file.SWITCH, elf_file.INDIRECT):
-        return {elf_file.CALL: "call", elf_file.RETURN: "return"}.get(i.kind, "jump")
-    if i.kind == elf_file.BRANCH:
-        return "branch"
-    if re.match(r"(push|pop|stm|ldm|vpush|vpop)", name):
-        return "load or store several"
-    if re.match(r"(ldr|vldr|l[bhw]u?$|flw|fld|lr\.)", name):
-        return "load"
-    if re.match(r"(str|vstr|s[bhw]$|fsw|fsd|sc\.)", name):
-        return "store"
-    if re.match(r"([us]mull|[us]mlal|umaal|mulhs?u?$)", name):
-        return "long multiply"
-    if re.match(r"(mul|mla|mls|smul|smla)", name):
-        return "multiply"
-    if re.match(r"([us]div|divu?$|remu?$)", name):
-        return "divide"
-    if re.match(r"v(div|sqrt)", name):
-        return "float divide or root"
-    if name.startswith("v") or re.match(r"f\w+\.[sd]", name):
-        return "float"
-    return "other"
+    name = i.name.removeprefix("c.")
+    return FLOWS.get(i.kind) or next((c for c, names in CLASSES.items() if re.match(names, name)), "other")
 
 
 def chains(tools, path, addresses):
