@@ -12,6 +12,8 @@
 #include <qray/shape/sphere.hpp>
 #include <qray/surface/transmit.hpp>
 
+#include "random.hpp"
+
 #if defined(__clang__)
 #pragma clang diagnostic ignored "-Wdouble-promotion"
 #endif
@@ -211,16 +213,7 @@ bool meets(Check& check, S shape, Ray<N> ray, typename N::Length& t, typename N:
     return after;
 }
 
-// splitmix64 (Vigna).
-struct Random {
-    uint64_t state;
-    uint64_t bits()
-    {
-        uint64_t z = state += 0x9e3779b97f4a7c15u;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
+struct Random : SplitMix {
     // In [low, high], of a span below 2^32.
     int64_t in(int64_t low, int64_t high)
     {

@@ -10,6 +10,9 @@
 
 #include <qray/vector/ray.hpp>
 
+#include "random.hpp"
+#include "reals.hpp"
+
 #ifdef __clang__ // to long double too, which these tests mean
 #pragma clang diagnostic ignored "-Wdouble-promotion"
 #endif
@@ -32,31 +35,6 @@ struct SystemNames {
 };
 
 using Vec3 = Vec<double>;
-template <class R>
-Vec<R> operator*(const Vec<R>& a, std::type_identity_t<R> k)
-{
-    return {a.x * k, a.y * k, a.z * k};
-}
-template <class R>
-R dot(const Vec<R>& a, const Vec<R>& b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-template <class R>
-Vec<R> cross(const Vec<R>& a, const Vec<R>& b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <class R>
-R length(const Vec<R>& a)
-{
-    return std::sqrt(dot(a, a));
-}
-template <class R>
-Vec<R> unit(const Vec<R>& a)
-{
-    return a * (R(1) / length(a));
-}
 inline Vec3 unit(const Vec3& a) { return unit<double>(a); }
 inline double length(const Vec3& a) { return length<double>(a); }
 
@@ -169,17 +147,9 @@ inline void expect_near(const Vec3& a, const Vec3& b, double tolerance)
     EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
-// Numbers that look random and are the same everywhere: splitmix64 (Vigna).
-class Random {
+class Random : public SplitMix {
 public:
-    explicit Random(uint64_t seed) : state(seed) {}
-    uint64_t bits()
-    {
-        uint64_t z = state += 0x9e3779b97f4a7c15u;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
+    explicit Random(uint64_t seed) : SplitMix{seed} {}
     double uniform(double low, double high)
     {
         return low + (high - low) * std::ldexp(static_cast<double>(bits() >> 11), -53);
@@ -194,9 +164,6 @@ public:
                 return v * (1 / l);
         }
     }
-
-private:
-    uint64_t state;
 };
 
 } // namespace qray::test

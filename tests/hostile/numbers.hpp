@@ -6,6 +6,8 @@
 
 #include <qray/surface/reflection.hpp>
 
+#include "../random.hpp"
+#include "../reals.hpp"
 #include "scene/convert.hpp"
 
 namespace hostile {
@@ -13,61 +15,27 @@ namespace hostile {
 using Wide = long double;
 using Quad = __float128;
 
-// splitmix64 (Steele, Lea, Flood 2014): the same numbers from the same seed everywhere.
-struct Random {
-    uint64_t state;
-    explicit Random(uint64_t seed) : state(seed) {}
-    uint64_t next()
-    {
-        uint64_t z = state += 0x9e3779b97f4a7c15u;
-        z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-        return z ^ z >> 31;
-    }
-    double unit() { return static_cast<double>(next() >> 11) * 0x1p-53; }
+struct Random : SplitMix {
+    explicit Random(uint64_t seed) : SplitMix{seed} {}
+    double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
     double in(double low, double high) { return low + (high - low) * unit(); }
     double logarithmic(double low, double high) { return low * std::pow(high / low, unit()); }
-    uint32_t below(uint32_t n) { return static_cast<uint32_t>((next() >> 32) * n >> 32); }
+    uint32_t below(uint32_t n) { return static_cast<uint32_t>((bits() >> 32) * n >> 32); }
     bool chance(double p) { return unit() < p; }
 };
 
 template <class R>
-struct Vec3 {
-    R x, y, z;
-    friend Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-    friend Vec3 operator*(const Vec3& a, R k) { return {a.x * k, a.y * k, a.z * k}; }
-};
-template <class R>
-R dot(const Vec3<R>& a, const Vec3<R>& b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-template <class R>
-Vec3<R> cross(const Vec3<R>& a, const Vec3<R>& b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline Wide root(Wide v) { return std::sqrt(v); }
-// The 64 bits of long double's root, doubled by a Newton step.
-inline Quad root(Quad v)
-{
-    if (!(v > 0))
-        return 0;
-    const Quad s = static_cast<Quad>(std::sqrt(static_cast<Wide>(v)));
-    return (s + v / s) / 2;
-}
+using Vec3 = qray::Vec<R>;
+using qray::test::operator*;
+using qray::test::cross;
+using qray::test::dot;
+using qray::test::length;
+using qray::test::root;
 template <class R>
 R size(R v)
 {
     return v < 0 ? -v : v;
 }
-template <class R>
-R length(const Vec3<R>& a)
-{
-    return root(dot(a, a));
-}
-
 using Double3 = qray::scene::Vec3d;
 
 inline Double3 direction(Random& random)

@@ -62,23 +62,11 @@ Real<F> root(Real<F> a)
     return {std::sqrt(a.v)};
 }
 
-template <class T>
-struct Vec {
-    T x, y, z;
-    friend Vec operator+(const Vec& a, const Vec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend Vec operator-(const Vec& a, const Vec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-    friend Vec operator*(const Vec& a, T k) { return {a.x * k, a.y * k, a.z * k}; }
-};
-template <class T>
-T dot(const Vec<T>& a, const Vec<T>& b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-template <class T>
-Vec<T> cross(const Vec<T>& a, const Vec<T>& b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+using qray::Vec;
+using qray::test::operator*;
+using qray::test::cross;
+using qray::test::dot;
+
 template <class T>
 struct Ray {
     Vec<T> o, d;
