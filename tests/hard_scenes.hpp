@@ -45,10 +45,12 @@ public:
     void background(double r, double g, double b) { head += format("b %.17g %.17g %.17g\n", r, g, b); }
     void far(double d) { head += format("far %.17g\n", d * world.scale); }
 
-    void fill(const Vec3& colour, double diffuse, double highlight, double shine, double mirror, double transmit, double ior)
+    void fill(const Vec3& colour, double diffuse, double highlight, double shine, double mirror, double transmit,
+              double ior)
     {
-        current = format("material colour %s diffuse %.17g highlight %.17g shine %.17g mirror %.17g transmit %.17g ior %.17g\n",
-                         numbers(colour).c_str(), diffuse, highlight, shine, mirror, transmit, ior);
+        current = format(
+            "material colour %s diffuse %.17g highlight %.17g shine %.17g mirror %.17g transmit %.17g ior %.17g\n",
+            numbers(colour).c_str(), diffuse, highlight, shine, mirror, transmit, ior);
     }
     void matte(double r, double g, double b) { fill({r, g, b}, 1, 0, 1, 0, 0, 1); }
     void checker(const Vec3& other, double size)

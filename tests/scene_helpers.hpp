@@ -64,7 +64,8 @@ Vec3 light_at(uint32_t i, uint32_t j, RayCount* count = nullptr)
 {
     const Scene<N, E> s = storage<N>().template view<E>();
     const Camera<N>& c = s.camera;
-    const auto at = c.row(2 * static_cast<int32_t>(j) + 1 - c.height) + c.right * (2 * static_cast<int32_t>(i) + 1 - c.width);
+    const auto at =
+        c.row(2 * static_cast<int32_t>(j) + 1 - c.height) + c.right * (2 * static_cast<int32_t>(i) + 1 - c.width);
     RayCount counted;
     const auto light = trace(s, eye_ray(s, at), counted);
     if (count != nullptr)

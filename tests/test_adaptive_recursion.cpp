@@ -88,9 +88,11 @@ TYPED_TEST(AdaptiveRecursionTest, FlatPictureIsNotCutEvenByAThresholdOfZero)
 
 TYPED_TEST(AdaptiveRecursionTest, SlopeIsCutWhileItExceedsTheThreshold)
 {
-    // Black up to the middle, then a slope of 1/8 a pixel: quarters are 1/16 apart, each 1/24 from the mean of the others.
+    // Black up to the middle, then a slope of 1/8 a pixel: quarters are 1/16 apart, each 1/24 from the mean of the
+    // others.
     char text[200];
-    snprintf(text, sizeof text, "material colour 0 0 0\n texture gradient 1 1 1 %.17g 1 0 0\n disc 0 0 0 0 0 1 20", 10 * h);
+    snprintf(text, sizeof text, "material colour 0 0 0\n texture gradient 1 1 1 %.17g 1 0 0\n disc 0 0 0 0 0 1 20",
+             10 * h);
     const Shade shade = [&](double x, double) {
         const double v = std::fmin(1, std::fmax(0, (x - 4) / 8));
         return Vec3{v, v, v};

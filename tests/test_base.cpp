@@ -205,7 +205,8 @@ TEST(Base, RootsOfWhatHasNone) {
 TEST(Base, ProductsOf64BitsAreComparedExactly) {
     std::mt19937_64 random(8);
     constexpr int64_t most = std::numeric_limits<int64_t>::max(), least = std::numeric_limits<int64_t>::min();
-    std::vector<int64_t> ends{0, 1, -1, 2, int64_t{1} << 31, int64_t{1} << 32, -(int64_t{1} << 32), (int64_t{1} << 32) - 1, most, least};
+    std::vector<int64_t> ends{
+        0, 1, -1, 2, int64_t{1} << 31, int64_t{1} << 32, -(int64_t{1} << 32), (int64_t{1} << 32) - 1, most, least};
     const auto check = [](int64_t a, int64_t b, int64_t c, int64_t d) {
         const i128 first = i128{a} * b, second = i128{c} * d;
         return compare_products(a, b, c, d) == (first > second) - (first < second);

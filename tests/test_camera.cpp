@@ -16,7 +16,9 @@ Pencil<N> pencil(const Vec3& v)
 {
     if constexpr (N::is_fixed) {
         using Whole = decltype(Pencil<N>::x);
-        const auto scaled = [](double c) { return static_cast<Whole>(std::llrint(std::ldexp(c, sizeof(Whole) == 4 ? 28 : 59))); };
+        const auto scaled = [](double c) {
+            return static_cast<Whole>(std::llrint(std::ldexp(c, sizeof(Whole) == 4 ? 28 : 59)));
+        };
         return {scaled(v.x), scaled(v.y), scaled(v.z)};
     } else {
         using F = typename N::Length;
@@ -97,7 +99,10 @@ TYPED_TEST(CameraTest, DirectionsAreUnit)
     double worst = 0;
     for (int y = -479; y < 480; y += 14)
         for (int x = -639; x < 640; x += 14)
-            worst = std::fmax(worst, std::fabs(static_cast<double>(length(real(camera.ray(camera.row(y) + camera.right * x).direction))) - 1));
+            worst = std::fmax(
+                worst,
+                std::fabs(static_cast<double>(length(real(camera.ray(camera.row(y) + camera.right * x).direction)))
+                          - 1));
     EXPECT_LE(worst, 2 * M::unit_ulp());
 }
 

@@ -151,7 +151,8 @@ TYPED_TEST(ConeTest, AgreesWithTheQuadratic)
             hits++;
             // Rounding U moves the discriminant by twice |U| times an ulp, and t by that over its root.
             const double slope = 1 + 1 / std::sqrt(static_cast<double>(exact.discriminant));
-            worst = std::fmax(worst, static_cast<double>(std::fabs(value(t) - exact.t[0])) / (slope * M::length_ulp(10)));
+            worst =
+                std::fmax(worst, static_cast<double>(std::fabs(value(t) - exact.t[0])) / (slope * M::length_ulp(10)));
         }
     }
     EXPECT_EQ(wrong, 0);

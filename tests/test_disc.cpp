@@ -76,9 +76,12 @@ TYPED_TEST(DiscTest, AgreesWithThePlaneEquation)
         wrong += hit != (expected > 0 && off < 0);
         if (hit) {
             hits++;
-            // Fixed point: the quotient's 2 ulp. Floating point: two sums of three products of that size, over a cosine.
+            // Fixed point: the quotient's 2 ulp. Floating point: two sums of three products of that size, over a
+            // cosine.
             const double ulp = M::length_ulp(static_cast<double>(length(v)));
-            worst = std::fmax(worst, static_cast<double>(std::fabs(value(t) - expected)) / (N::is_fixed ? ulp : ulp / std::fabs(cosine)));
+            worst = std::fmax(worst,
+                              static_cast<double>(std::fabs(value(t) - expected))
+                                  / (N::is_fixed ? ulp : ulp / std::fabs(cosine)));
         }
     }
     EXPECT_EQ(wrong, 0);

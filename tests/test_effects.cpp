@@ -109,7 +109,8 @@ TEST(Effects, GroupsFollowTheirFlags)
     EXPECT_TRUE(only(&Effects::mirror).spawns());
     EXPECT_TRUE(only(&Effects::transmit).spawns());
     EXPECT_TRUE(only(&Effects::see_through).transmits() && only(&Effects::transmit).transmits());
-    EXPECT_FALSE(only(&Effects::see_through).texture() || only(&Effects::see_through).spawns() || only(&Effects::see_through).lights());
+    EXPECT_FALSE(only(&Effects::see_through).texture() || only(&Effects::see_through).spawns()
+                 || only(&Effects::see_through).lights());
 }
 
 } // namespace

@@ -7,7 +7,8 @@ namespace {
 using namespace qray;
 using test::Random;
 
-constexpr int32_t extremes[] = {INT32_MIN, INT32_MIN + 1, -0x40000000, -65537, -1, 0, 1, 3, 65536, 0x3fffffff, INT32_MAX};
+constexpr int32_t extremes[] = {INT32_MIN, INT32_MIN + 1, -0x40000000, -65537,   -1, 0, 1,
+                                3,         65536,         0x3fffffff,  INT32_MAX};
 
 TEST(Fixed, AddsSubtractsAndNegatesRawValues)
 {

@@ -36,8 +36,8 @@ bool bend(const Direction<N>& d, const Direction<N>& n, double eta, Direction<N>
     return refracted<N>(d, n, N::unit(qray::dot<N>(d, n)), make<N>::eta(eta), out);
 }
 
-// A millionth of a radian to either side, where the root of k falls like 1.5e-3; in q16, whose directions have 14 bits, a
-// sixtieth of a radian.
+// A millionth of a radian to either side, where the root of k falls like 1.5e-3; in q16, whose directions have 14 bits,
+// a sixtieth of a radian.
 TYPED_TEST(HardCases, RefractionAMillionthOffTheCriticalAngle)
 {
     using N = TypeParam;
@@ -65,20 +65,24 @@ TYPED_TEST(HardCases, RefractionAMillionthOffTheCriticalAngle)
         }
     }
     // And the margin is what it takes: k is 2.2e-6 and more there, above the slack of every system.
-    EXPECT_GT(2 * near * std::tan(std::asin(1 / 2.4)) * 2.4 / 2.4, 16 * 2.4 * M::unit_ulp() * (std::is_same_v<N, Float> ? 0 : 1));
+    EXPECT_GT(2 * near * std::tan(std::asin(1 / 2.4)) * 2.4 / 2.4,
+              16 * 2.4 * M::unit_ulp() * (std::is_same_v<N, Float> ? 0 : 1));
 }
 
 TYPED_TEST(HardCases, IndexAMillionthOffOneLeavesThePictureAsItIs)
 {
     using N = TypeParam;
     const auto draw_with = [](const char* ball) {
-        EXPECT_TRUE(loaded<N>("v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 64 64\n l 3 4 5 1 1 1\n shadows off\n"
-                              "material diffuse 0.75\n texture gradient 0 0.5 1 8 1 1 0\n disc 0 0 -5 0 0 1 20\n" + std::string(ball)));
+        EXPECT_TRUE(loaded<N>(
+            "v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 64 64\n l 3 4 5 1 1 1\n shadows off\n"
+            "material diffuse 0.75\n texture gradient 0 0.5 1 8 1 1 0\n disc 0 0 -5 0 0 1 20\n"
+            + std::string(ball)));
         return draw<N>();
     };
     const Picture without = draw_with("");
     for (const char* ior : {"1.00000095367431640625", "0.99999904632568359375"}) {
-        const Picture with = draw_with(("material colour 0 0 0 ambient 0 transmit 1 ior " + std::string(ior) + " s 0 0 0 1.5").c_str());
+        const Picture with =
+            draw_with(("material colour 0 0 0 ambient 0 transmit 1 ior " + std::string(ior) + " s 0 0 0 1.5").c_str());
         size_t differing = 0;
         int most = 0;
         for (size_t i = 0; i < with.rgb.size(); i++) {
@@ -99,7 +103,8 @@ TYPED_TEST(HardCases, SlabLetsOutWhatCameInParallel)
     for (double ior : {1.25, 1.5, 2.4})
         for (double degrees : {0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0, 89.0}) {
             // eta and 1 / eta are each within half a unit of their own format.
-            const double eta_error = std::fmax(M::template step<typename N::Eta>(ior) / ior, M::template step<typename N::Eta>(1 / ior) * ior);
+            const double eta_error = std::fmax(M::template step<typename N::Eta>(ior) / ior,
+                                               M::template step<typename N::Eta>(1 / ior) * ior);
             double worst = 0;
             for (int i = 0; i < 500; i++) {
                 const Vec3 n = random.direction(), side = across(random, n);
@@ -109,14 +114,16 @@ TYPED_TEST(HardCases, SlabLetsOutWhatCameInParallel)
                 ASSERT_TRUE(bend<N>(d, stored_n, 1 / ior, inside));
                 const bool lets_out = bend<N>(inside, stored_n, ior, out);
                 if (NarrowFixed<N> && !lets_out) { // k, here cos^2, may be below its own error
-                    EXPECT_LE(std::cos(angle) * std::cos(angle), 2 * (eta_error + 4 * M::unit_ulp() * ior)) << ior << " " << degrees;
+                    EXPECT_LE(std::cos(angle) * std::cos(angle), 2 * (eta_error + 4 * M::unit_ulp() * ior))
+                        << ior << " " << degrees;
                     continue;
                 }
                 ASSERT_TRUE(lets_out);
                 worst = std::fmax(worst, distance(value(out), value(d)));
             }
             const double tangent = std::tan(degrees * M_PI / 180);
-            EXPECT_LE(worst, 4 * M::unit_ulp() * std::fmax(1, tangent) * ior + eta_error * std::fmax(1, tangent)) << ior << " " << degrees;
+            EXPECT_LE(worst, 4 * M::unit_ulp() * std::fmax(1, tangent) * ior + eta_error * std::fmax(1, tangent))
+                << ior << " " << degrees;
         }
 }
 
@@ -128,8 +135,11 @@ void expect_bounded_in_glass(const std::string& glass)
     scene::Settings settings;
     settings.depth = 12;
     settings.cutoff = 0;
-    ASSERT_TRUE(loaded<N>("v from 0.1 0.2 0.3 at 1 0.4 0.7 up 0 1 0 angle 120 hither 1 resolution 9 9\n b 1 1 1\n ambientlight 0 0 0\n"
-                          "material colour 0 0 0 ambient 0 diffuse 0 mirror 0.1 transmit 0.9 ior 1.5\n" + glass, settings));
+    ASSERT_TRUE(loaded<N>(
+        "v from 0.1 0.2 0.3 at 1 0.4 0.7 up 0 1 0 angle 120 hither 1 resolution 9 9\n b 1 1 1\n ambientlight 0 0 0\n"
+        "material colour 0 0 0 ambient 0 diffuse 0 mirror 0.1 transmit 0.9 ior 1.5\n"
+            + glass,
+        settings));
     for (uint32_t j = 0; j < 9; j++)
         for (uint32_t i = 0; i < 9; i++) {
             RayCount count;
@@ -143,8 +153,9 @@ TYPED_TEST(HardCases, TotalReflectionInsideABallIsBounded) { expect_bounded_in_g
 TYPED_TEST(HardCases, TotalReflectionInsideACubeIsBounded)
 {
     std::string cube;
-    for (const char* face : {"-1 -1 1 1 -1 1 1 1 1 -1 1 1", "1 -1 -1 -1 -1 -1 -1 1 -1 1 1 -1", "1 -1 1 1 -1 -1 1 1 -1 1 1 1",
-                             "-1 -1 -1 -1 -1 1 -1 1 1 -1 1 -1", "-1 1 1 1 1 1 1 1 -1 -1 1 -1", "-1 -1 -1 1 -1 -1 1 -1 1 -1 -1 1"})
+    for (const char* face :
+         {"-1 -1 1 1 -1 1 1 1 1 -1 1 1", "1 -1 -1 -1 -1 -1 -1 1 -1 1 1 -1", "1 -1 1 1 -1 -1 1 1 -1 1 1 1",
+          "-1 -1 -1 -1 -1 1 -1 1 1 -1 1 -1", "-1 1 1 1 1 1 1 1 -1 -1 1 -1", "-1 -1 -1 1 -1 -1 1 -1 1 -1 -1 1"})
         cube += "p 4 " + std::string(face) + "\n";
     expect_bounded_in_glass<TypeParam>(cube);
 }
@@ -198,19 +209,23 @@ TYPED_TEST(HardCases, ThousandBouncesKeepTheDirectionUnit)
             worst = std::fmax(worst, std::fabs(length(value(d)) - 1));
         }
         // In q16 what one bounce may leave: half an ulp in each component and in the correction.
-        const double most = NarrowFixed<N> ? (std::sqrt(3) + 1) / 2 * M::unit_ulp() : N::is_fixed ? 1e-8 : 8 * M::unit_ulp();
+        const double most = NarrowFixed<N> ? (std::sqrt(3) + 1) / 2 * M::unit_ulp()
+            : N::is_fixed                  ? 1e-8
+                                           : 8 * M::unit_ulp();
         EXPECT_LE(worst, most);
     }
 }
 
 // --- Shadow
 
-// A light 1e-5 high at a distance of 1 over a floor lights all of it with its cosine, and nothing else stands in its way.
+// A light 1e-5 high at a distance of 1 over a floor lights all of it with its cosine, and nothing else stands in its
+// way.
 TYPED_TEST(HardCases, LightAtACosineOfAHundredthousandth)
 {
     using N = TypeParam;
-    ASSERT_TRUE(loaded<N>("v from 0 5 0.001 at 0 0 0 up 0 0 -1 angle 60 hither 1 resolution 33 33\n b 0 0 0\n ambientlight 0 0 0\n"
-                          "l 6 6e-5 0 64 64 64\n material\n p 4 -4 0 4 4 0 4 4 0 -4 -4 0 -4\n"));
+    ASSERT_TRUE(loaded<N>(
+        "v from 0 5 0.001 at 0 0 0 up 0 0 -1 angle 60 hither 1 resolution 33 33\n b 0 0 0\n ambientlight 0 0 0\n"
+        "l 6 6e-5 0 64 64 64\n material\n p 4 -4 0 4 4 0 4 4 0 -4 -4 0 -4\n"));
     const double h = std::tan(30 * M_PI / 180);
     for (uint32_t j = 0; j < 33; j++)
         for (uint32_t i = 0; i < 33; i++) {
@@ -226,16 +241,18 @@ TYPED_TEST(HardCases, LightExactlyOnASurfaceLightsTheOthersAndNotItsOwn)
 {
     using N = TypeParam;
     // On the floor at (1, 0, 0), a wall at x = 3 facing it.
-    ASSERT_TRUE(loaded<N>("v from 2 1 0 at 3 1 0 up 0 1 0 angle 20 hither 1 resolution 9 9\n b 0 0 0\n ambientlight 0 0 0\n"
-                          "l 1 0 0 1 1 1\n material\n p 4 0 0 3 4 0 3 4 0 -3 0 0 -3\n p 4 3 0 -3 3 0 3 3 3 3 3 3 -3\n"));
+    ASSERT_TRUE(
+        loaded<N>("v from 2 1 0 at 3 1 0 up 0 1 0 angle 20 hither 1 resolution 9 9\n b 0 0 0\n ambientlight 0 0 0\n"
+                  "l 1 0 0 1 1 1\n material\n p 4 0 0 3 4 0 3 4 0 -3 0 0 -3\n p 4 3 0 -3 3 0 3 3 3 3 3 3 -3\n"));
     const double h = std::tan(10 * M_PI / 180);
     for (uint32_t j = 0; j < 9; j++)
         for (uint32_t i = 0; i < 9; i++) {
             const double y = 1 - h * (2 * (j + 0.5) / 9 - 1), z = h * (2 * (i + 0.5) / 9 - 1);
             EXPECT_NEAR(light_at<N>(i, j).x, 2 / std::sqrt(4 + y * y + z * z), 16 * light_tolerance<N>());
         }
-    ASSERT_TRUE(loaded<N>("v from 0 3 3 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 9 9\n b 0 0 0\n ambientlight 0 0 0\n"
-                          "l 1 0 0 1 1 1\n material\n p 4 -4 0 4 4 0 4 4 0 -4 -4 0 -4\n"));
+    ASSERT_TRUE(
+        loaded<N>("v from 0 3 3 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 9 9\n b 0 0 0\n ambientlight 0 0 0\n"
+                  "l 1 0 0 1 1 1\n material\n p 4 -4 0 4 4 0 4 4 0 -4 -4 0 -4\n"));
     for (uint32_t j = 0; j < 9; j++)
         for (uint32_t i = 0; i < 9; i++)
             EXPECT_NEAR(light_at<N>(i, j).x, 0, 16 * light_tolerance<N>());
@@ -244,9 +261,11 @@ TYPED_TEST(HardCases, LightExactlyOnASurfaceLightsTheOthersAndNotItsOwn)
 TYPED_TEST(HardCases, LightOnABallIsBlockedByTheBallAlone)
 {
     using N = TypeParam;
-    // The light at the top of a ball of 1 around (0, 1, 0): all of the ball lies below its tangent plane, and the floor behind the ball.
-    ASSERT_TRUE(loaded<N>("v from 0 6 0.001 at 0 0 0 up 0 0 -1 angle 40 hither 1 resolution 17 17\n b 0 0 0\n ambientlight 0 0 0\n"
-                          "l 0 2 0 1 1 1\n material\n p 4 -9 0 9 9 0 9 9 0 -9 -9 0 -9\n s 0 1 0 1\n"));
+    // The light at the top of a ball of 1 around (0, 1, 0): all of the ball lies below its tangent plane, and the floor
+    // behind the ball.
+    ASSERT_TRUE(loaded<N>(
+        "v from 0 6 0.001 at 0 0 0 up 0 0 -1 angle 40 hither 1 resolution 17 17\n b 0 0 0\n ambientlight 0 0 0\n"
+        "l 0 2 0 1 1 1\n material\n p 4 -9 0 9 9 0 9 9 0 -9 -9 0 -9\n s 0 1 0 1\n"));
     const double h = std::tan(20 * M_PI / 180);
     int seen = 0;
     for (uint32_t j = 0; j < 17; j++)
@@ -264,7 +283,8 @@ TYPED_TEST(HardCases, LightOnABallIsBlockedByTheBallAlone)
 TYPED_TEST(HardCases, LightInsideAnOpaqueBallStaysThere)
 {
     using N = TypeParam;
-    ASSERT_TRUE(loaded<N>(view9 + "b 0 0 0\n ambientlight 0 0 0\n l 0 0 0 1 1 1\n material\n s 0 0 0 0.01\n disc 0 0 -2 0 0 1 20\n"));
+    ASSERT_TRUE(loaded<N>(
+        view9 + "b 0 0 0\n ambientlight 0 0 0\n l 0 0 0 1 1 1\n material\n s 0 0 0 0.01\n disc 0 0 -2 0 0 1 20\n"));
     for (uint32_t j = 0; j < 9; j++)
         for (uint32_t i = 0; i < 9; i++)
             EXPECT_EQ(light_at<N>(i, j).x, 0);
@@ -277,29 +297,34 @@ TYPED_TEST(HardCases, OccluderBeyondTheLightDoesNotBlockIt)
     // q16, which holds 4 ulp for nothing between a light and what it touches, here 0.016.
     const std::string below = NarrowFixed<N> ? "0.98" : "0.9999";
     for (const std::string& lid : {std::string("1"), std::string(NarrowFixed<N> ? "1.02" : "1.0001"), below}) {
-        ASSERT_TRUE(loaded<N>("v from 0 0.5 2 at 0 0 0 up 0 1 0 angle 30 hither 1 resolution 9 9\n b 0 0 0\n ambientlight 0 0 0\n l 0 1 0 1 1 1\n"
-                              "material\n p 4 -9 0 9 9 0 9 9 0 -9 -9 0 -9\n disc 0 " + lid + " 0 0 1 0 5\n"));
+        ASSERT_TRUE(loaded<N>("v from 0 0.5 2 at 0 0 0 up 0 1 0 angle 30 hither 1 resolution 9 9\n b 0 0 0\n "
+                              "ambientlight 0 0 0\n l 0 1 0 1 1 1\n"
+                              "material\n p 4 -9 0 9 9 0 9 9 0 -9 -9 0 -9\n disc 0 "
+                              + lid + " 0 0 1 0 5\n"));
         EXPECT_EQ(light_at<N>(4, 6).x > 0.5, lid != below) << lid;
     }
 }
 
 // --- Texture
 
-// p = q/size to 32 and more bits, in integers: cells of 2^-15 at up to 2^20 cells away, at lattice points and beside them.
+// p = q/size to 32 and more bits, in integers: cells of 2^-15 at up to 2^20 cells away, at lattice points and beside
+// them.
 TYPED_TEST(HardCases, TextureCellsAMillionAwayAreRight)
 {
     using N = TypeParam;
     using M = make<N>;
     const Placing at{0x1p-15, {0, 0, 0}, 1};
     const auto axis = make_axis<N>(at, {1, 0, 0}, 0, true);
-    for (int64_t cell : {int64_t{0}, int64_t{1}, int64_t{-1}, int64_t{1} << 20, -(int64_t{1} << 20), (int64_t{1} << 20) - 1, int64_t{700001}, int64_t{-700001}})
+    for (int64_t cell : {int64_t{0}, int64_t{1}, int64_t{-1}, int64_t{1} << 20, -(int64_t{1} << 20),
+                         (int64_t{1} << 20) - 1, int64_t{700001}, int64_t{-700001}})
         for (int sixteenth = -8; sixteenth <= 8; sixteenth++) {
             const double q = (static_cast<double>(cell) + sixteenth / 16.0) * 0x1p-15;
             const Point<N> p = M::point({q, 0, 0});
             if (value(p.x) != q) // not a number of this system
                 continue;
             const int64_t expected = cell + (sixteenth < 0 ? -1 : 0);
-            EXPECT_EQ(axis.cell(p).index, static_cast<uint32_t>(static_cast<uint64_t>(expected))) << cell << " " << sixteenth;
+            EXPECT_EQ(axis.cell(p).index, static_cast<uint32_t>(static_cast<uint64_t>(expected)))
+                << cell << " " << sixteenth;
         }
 }
 
@@ -366,7 +391,10 @@ TYPED_TEST(HardCases, DetailBelowAPixelTakesBoundedSamples)
         settings.levels = levels;
         settings.threshold = 0;
         // A checker of a hundredth of a pixel.
-        ASSERT_TRUE(loaded<N>(view9 + "b 0 0 0\n ambientlight 1 1 1\n material colour 1 1 1 diffuse 0\n texture checker 0 0 0 0.005\n disc 0 0 0 0 0 1 20\n", settings));
+        ASSERT_TRUE(loaded<N>(view9
+                                  + "b 0 0 0\n ambientlight 1 1 1\n material colour 1 1 1 diffuse 0\n texture checker "
+                                    "0 0 0 0.005\n disc 0 0 0 0 0 1 20\n",
+                              settings));
         for (uint32_t k = 0; k < 9; k++) {
             const uint64_t n = samples_of<N>(k, k);
             EXPECT_GE(n, 4u);
@@ -380,7 +408,8 @@ TYPED_TEST(HardCases, FlatSceneTakesTheBaseSamplesOnly)
     using N = TypeParam;
     scene::Settings settings;
     settings.levels = 5;
-    ASSERT_TRUE(loaded<N>(view9 + "b 0.3 0.4 0.5\n ambientlight 1 1 1\n material diffuse 0\n disc 0 0 0 0 0 1 20\n", settings));
+    ASSERT_TRUE(
+        loaded<N>(view9 + "b 0.3 0.4 0.5\n ambientlight 1 1 1\n material diffuse 0\n disc 0 0 0 0 0 1 20\n", settings));
     for (uint32_t k = 0; k < 9; k++)
         EXPECT_EQ(samples_of<N>(k, 8 - k), 4u);
 }
@@ -415,7 +444,8 @@ TYPED_TEST(HardCases, SixteenLightsOfOneSaturate)
     std::string lights;
     for (int i = 0; i < 16; i++)
         lights += "l 0 0 5 1 1 1\n";
-    ASSERT_TRUE(loaded<N>(view9 + lights + "b 0 0 0\n ambientlight 0 0 0\n material highlight 1 shine 3\n disc 0 0 0 0 0 1 20\n"));
+    ASSERT_TRUE(loaded<N>(view9 + lights
+                          + "b 0 0 0\n ambientlight 0 0 0\n material highlight 1 shine 3\n disc 0 0 0 0 0 1 20\n"));
     expect_light(light_at<N>(4, 4), {32, 32, 32}, 64 * light_tolerance<N>());
     const Picture p = draw<N>();
     for (uint8_t byte : p.rgb)
@@ -431,7 +461,9 @@ TYPED_TEST(HardCases, SixtyfourLightsOfSixtyfourSaturate)
     scene::Settings settings;
     settings.depth = 64;
     // Two mirrors of weight 1 that gather it 64 times over: 64 * 64 * 2 * 64 = 2^19.
-    ASSERT_TRUE(loaded<N>(view9 + lights + "b 64 64 64\n ambientlight 64 64 64\n material highlight 1 mirror 1\n disc 0 0 0 0 0 1 20\n disc 0 0 9 0 0 -1 20\n",
+    ASSERT_TRUE(loaded<N>(view9 + lights
+                              + "b 64 64 64\n ambientlight 64 64 64\n material highlight 1 mirror 1\n disc 0 0 0 0 0 1 "
+                                "20\n disc 0 0 9 0 0 -1 20\n",
                           settings));
     const Picture p = draw<N>();
     for (uint8_t byte : p.rgb)
@@ -443,7 +475,8 @@ TYPED_TEST(HardCases, SixtyfourSamplesOfWhiteAreWhite)
     using N = TypeParam;
     scene::Settings settings;
     settings.grid = 8;
-    ASSERT_TRUE(loaded<N>(view9 + "b 1 1 1\n ambientlight 1 1 1\n material diffuse 0\n disc 0 0 0 0 0 1 1\n", settings));
+    ASSERT_TRUE(
+        loaded<N>(view9 + "b 1 1 1\n ambientlight 1 1 1\n material diffuse 0\n disc 0 0 0 0 0 1 1\n", settings));
     const Picture p = draw<N>();
     for (uint8_t byte : p.rgb)
         EXPECT_EQ(byte, 255);
@@ -485,7 +518,8 @@ TYPED_TEST(HardCases, CameraOfASinglePixel)
 {
     using N = TypeParam;
     for (const char* angle : {"45", "1e-9", "179.999", "4.9e-324"}) {
-        ASSERT_TRUE(loaded<N>(camera("0 1 0", angle, "1 1") + "b 0 0 0\n ambientlight 1 1 1\n material colour 0.2 0.4 1 diffuse 0\n s 0 0 0 1\n"));
+        ASSERT_TRUE(loaded<N>(camera("0 1 0", angle, "1 1")
+                              + "b 0 0 0\n ambientlight 1 1 1\n material colour 0.2 0.4 1 diffuse 0\n s 0 0 0 1\n"));
         const Picture p = draw<N>();
         EXPECT_EQ(p.at(0, 0).r, 51) << angle;
         EXPECT_EQ(p.at(0, 0).g, 102);
@@ -495,7 +529,8 @@ TYPED_TEST(HardCases, CameraOfASinglePixel)
 
 TEST(HardInput, WhatIsNoNumberIsAnError)
 {
-    for (const char* number : {"nan", "NaN", "inf", "-inf", "infinity", "1e400", "-1e400", "0x10", "1e", "--1", "1.2.3", ".", "+", "1e+"})
+    for (const char* number :
+         {"nan", "NaN", "inf", "-inf", "infinity", "1e400", "-1e400", "0x10", "1e", "--1", "1.2.3", ".", "+", "1e+"})
         error_of(camera("0 1 0", "45", "9 9") + "s 0 0 0 " + number + "\n");
 }
 TEST(HardInput, ALengthTooLargeIsAnError)
@@ -506,7 +541,8 @@ TEST(HardInput, ALengthTooLargeIsAnError)
 TYPED_TEST(HardCases, DenormalsAreNothing)
 {
     using N = TypeParam;
-    ASSERT_TRUE(loaded<N>(view9 + "b 0.2 0.4 1\n s 0 0 0 4.9e-324\n disc 0 0 0 0 0 1 1e-310\n c 0 0 0 1e-320 0 1 0 0\n"));
+    ASSERT_TRUE(
+        loaded<N>(view9 + "b 0.2 0.4 1\n s 0 0 0 4.9e-324\n disc 0 0 0 0 0 1 1e-310\n c 0 0 0 1e-320 0 1 0 0\n"));
     EXPECT_EQ(description().object_count, 0u);
     EXPECT_EQ(description().dropped, 3u);
     const Picture p = draw<N>();
@@ -548,8 +584,9 @@ TEST(HardInput, AnUnknownEntityIsAnErrorAtItsPlace)
 // Every prefix of a scene is a scene or one line of error.
 TEST(HardInput, AFileThatEndsEarly)
 {
-    const std::string whole = camera("0 1 0", "45", "9 9") + "b 0 0 0 l 1 2 3 f 1 1 1 0.5 0.5 3 0 1 s 0 0 0 1 c 0 0 0 1 0 1 0 0 p 3 0 0 0 1 0 0 0 1 0\n"
-                              "pp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1 texture checker 1 0 0 2 plane 0 0 0 0 1 0\n";
+    const std::string whole = camera("0 1 0", "45", "9 9")
+        + "b 0 0 0 l 1 2 3 f 1 1 1 0.5 0.5 3 0 1 s 0 0 0 1 c 0 0 0 1 0 1 0 0 p 3 0 0 0 1 0 0 0 1 0\n"
+          "pp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1 texture checker 1 0 0 2 plane 0 0 0 0 1 0\n";
     // Only one of these may be without an error: a light after an object is one itself.
     int errors = 0;
     for (size_t n = 0; n < whole.size(); n++) {

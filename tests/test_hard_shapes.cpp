@@ -1,6 +1,6 @@
-// The hard cases of each shape, one test a case. Whether there is a hit is decided exactly, in integers or in __float128 on
-// the numbers as stored; where a number system cannot tell by its nature, the test says how near it must come. Polygons, and
-// cases that need no more than integers, are in hard_catalogue.hpp.
+// The hard cases of each shape, one test a case. Whether there is a hit is decided exactly, in integers or in
+// __float128 on the numbers as stored; where a number system cannot tell by its nature, the test says how near it must
+// come. Polygons, and cases that need no more than integers, are in hard_catalogue.hpp.
 #include "shape_helpers.hpp"
 
 namespace {
@@ -291,7 +291,8 @@ TYPED_TEST(HardShapes, ConeGrazedBesideItsWall)
         // Nearer than this to its wall a ray may be judged either way: the same ray a little nearer, or farther.
         Quad other = 0;
         const Quad shift = static_cast<Quad>(8 * resolution<N>());
-        const Vec<Quad> step{static_cast<Quad>(n.x) * shift, static_cast<Quad>(n.y) * shift, static_cast<Quad>(n.z) * shift};
+        const Vec<Quad> step{static_cast<Quad>(n.x) * shift, static_cast<Quad>(n.y) * shift,
+                             static_cast<Quad>(n.z) * shift};
         if (meets_cone(exact(ray.origin) - step, exact(ray.direction), 1, Quad{1} / 2, 1, other)
             != meets_cone(exact(ray.origin) + step, exact(ray.direction), 1, Quad{1} / 2, 1, other))
             continue;
@@ -308,7 +309,8 @@ TYPED_TEST(HardShapes, ConeSeenFromInsideIsMetOnce)
     Random random(83);
     const ConeOf<N> s({0, 0, -1}, 0.5, {0, 0, 1}, 1.5);
     for (int i = 0; i < 4000; i++) {
-        const auto ray = M::ray({random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), random.uniform(-0.5, 0.5)}, random.direction());
+        const auto ray = M::ray({random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), random.uniform(-0.5, 0.5)},
+                                random.direction());
         Quad expected = 0;
         const bool meets = meets_cone(exact(ray.origin), exact(ray.direction), 1, Quad{1} / 2, 1, expected);
         const bool hit = s.hit(ray, limit, t);
@@ -340,8 +342,12 @@ TYPED_TEST(HardShapes, ConeHitThroughItsApex)
         }
         // A little below the apex it is as wide as it takes, and above it there is nothing.
         const double near = NarrowFixed<N> ? 0x1p-5 : 0x1p-10, above = NarrowFixed<N> ? 0x1p-5 : 0x1p-16;
-        EXPECT_TRUE(s.hit(M::ray({-5 * std::cos(turn), -5 * std::sin(turn), 2 - near}, {std::cos(turn), std::sin(turn), 0}), limit, t));
-        EXPECT_FALSE(s.hit(M::ray({-5 * std::cos(turn), -5 * std::sin(turn), 2 + above}, {std::cos(turn), std::sin(turn), 0}), limit, t));
+        EXPECT_TRUE(
+            s.hit(M::ray({-5 * std::cos(turn), -5 * std::sin(turn), 2 - near}, {std::cos(turn), std::sin(turn), 0}),
+                  limit, t));
+        EXPECT_FALSE(
+            s.hit(M::ray({-5 * std::cos(turn), -5 * std::sin(turn), 2 + above}, {std::cos(turn), std::sin(turn), 0}),
+                  limit, t));
     }
 }
 
@@ -394,7 +400,9 @@ TYPED_TEST(HardShapes, OtherNappeIsNeverMet)
     for (int i = 0; i < 2000; i++) {
         const Vec3 target{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(2.01, 4)};
         const double turn = random.uniform(0, 7);
-        EXPECT_FALSE(s.hit(M::ray(target - Vec3{6 * std::cos(turn), 6 * std::sin(turn), 0}, {std::cos(turn), std::sin(turn), 0}), limit, t));
+        EXPECT_FALSE(
+            s.hit(M::ray(target - Vec3{6 * std::cos(turn), 6 * std::sin(turn), 0}, {std::cos(turn), std::sin(turn), 0}),
+                  limit, t));
     }
 }
 

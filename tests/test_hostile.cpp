@@ -13,7 +13,8 @@ constexpr uint64_t rays = 20000;
 constexpr uint64_t rays = 1000000;
 #endif
 
-// Wrong answers per million that q32 may give: ordinary, small and far, grazing, needles. The edges of figures are exact.
+// Wrong answers per million that q32 may give: ordinary, small and far, grazing, needles. The edges of figures are
+// exact.
 struct Allowed {
     double wrong[4];
 };
@@ -34,8 +35,8 @@ void expect_steady(const Allowed& allowed)
         EXPECT_GT(t.rebounds, t.rays / 4);
         EXPECT_EQ(t.self_hits, 0u);
         EXPECT_EQ(t.leaks, 0u);
-        // Float cannot tell entering from leaving on a chord of 5e-4 in a ball of 1; nor q16, whose directions are known to
-        // 6e-5, at a few times that to the wall of a cone: 12 of 1000 grazing rays.
+        // Float cannot tell entering from leaving on a chord of 5e-4 in a ball of 1; nor q16, whose directions are
+        // known to 6e-5, at a few times that to the wall of a cone: 12 of 1000 grazing rays.
         const uint64_t least = is_q16 ? (row.regime == static_cast<int>(Regime::grazing) ? 60 : 50000) : 100000;
         const uint64_t parity = is_q16 || std::is_same_v<N, qray::Float> ? t.rays / least : 0;
         EXPECT_LE(t.parity, parity);
@@ -106,7 +107,9 @@ TEST(Hostile, FixedPointIsWrongLessOftenThanFloatInEveryRow)
 {
     std::vector<double> fixed, single;
     const auto into = [](std::vector<double>& list) {
-        return [&list](const Row& row) { list.push_back(static_cast<double>(row.tally.wrong) / static_cast<double>(row.tally.rays)); };
+        return [&list](const Row& row) {
+            list.push_back(static_cast<double>(row.tally.wrong) / static_cast<double>(row.tally.rays));
+        };
     };
     rows_in<qray::q32>({}, rays / 8, into(fixed));
     rows_in<qray::Float>({}, rays / 8, into(single));

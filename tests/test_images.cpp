@@ -101,7 +101,8 @@ TYPED_TEST(ImageTest, PlaneLitByAPointLightHasLambertAndPhong)
             const auto channel = [&](double light, double m) {
                 return m * 0.25 * 0.5 + light * (m * diffuse + highlight);
             };
-            expect_light(light_at<N>(i, j), {channel(0.75, 0.5), channel(0.5, 1), channel(1, 0.25)}, 4 * light_tolerance<N>());
+            expect_light(light_at<N>(i, j), {channel(0.75, 0.5), channel(0.5, 1), channel(1, 0.25)},
+                         4 * light_tolerance<N>());
         }
 }
 
@@ -145,7 +146,8 @@ TYPED_TEST(ImageTest, SixteenLightsSaturateAndNeverWrap)
 TYPED_TEST(ImageTest, MirrorShowsTheBackgroundTimesItsWeight)
 {
     using N = TypeParam;
-    ASSERT_TRUE(loaded<N>(view() + "b 0.5 0.25 1\n ambientlight 0 0 0\n material mirror 0.75\n plane 0 0 0 0 0 1\n far 60"));
+    ASSERT_TRUE(
+        loaded<N>(view() + "b 0.5 0.25 1\n ambientlight 0 0 0\n material mirror 0.75\n plane 0 0 0 0 0 1\n far 60"));
     for (uint32_t j = 0; j < 9; j++)
         for (uint32_t i = 0; i < 9; i++)
             expect_light(light_at<N>(i, j), {0.375, 0.1875, 0.75}, light_tolerance<N>());
@@ -164,7 +166,8 @@ TYPED_TEST(ImageTest, MirrorShowsWhatStandsBesideIt)
 TYPED_TEST(ImageTest, BallInsideAUniformlyLitBallIsInvisible)
 {
     using N = TypeParam;
-    ASSERT_TRUE(loaded<N>(view("33 33") + "ambientlight 0.5 0.5 0.5\n material colour 0.5 0.25 1\n s 0 0 0 20\n s 0 0 0 1"));
+    ASSERT_TRUE(
+        loaded<N>(view("33 33") + "ambientlight 0.5 0.5 0.5\n material colour 0.5 0.25 1\n s 0 0 0 20\n s 0 0 0 1"));
     const Picture p = draw<N>();
     for (uint32_t j = 0; j < 33; j++)
         for (uint32_t i = 0; i < 33; i++) {
@@ -181,8 +184,10 @@ TYPED_TEST(ImageTest, LosslessGlassInAFurnaceVanishes)
     scene::Settings settings;
     settings.depth = 40;
     settings.cutoff = 0;
-    ASSERT_TRUE(loaded<N>(view("21 21") + "ambientlight 1 1 1\n material colour 1 1 1\n s 0 0 0 20\n"
-                                          "material ambient 0 diffuse 0 mirror 0.25 transmit 0.75 ior 1.5\n s 0 0 0 1", settings));
+    ASSERT_TRUE(loaded<N>(view("21 21")
+                              + "ambientlight 1 1 1\n material colour 1 1 1\n s 0 0 0 20\n"
+                                "material ambient 0 diffuse 0 mirror 0.25 transmit 0.75 ior 1.5\n s 0 0 0 1",
+                          settings));
     // Each internal hit passes 3/4 on and keeps 1/4 inside: after 40 of them less than 1e-20 is missing.
     for (uint32_t j = 0; j < 21; j++)
         for (uint32_t i = 0; i < 21; i++)
@@ -195,10 +200,12 @@ TYPED_TEST(ImageTest, EnergyNeverGrows)
     scene::Settings settings;
     settings.depth = 12;
     // Walls that shine with 1/2 and objects that pass on at most 1/2 more: nothing exceeds 1.
-    ASSERT_TRUE(loaded<N>(view("24 24") + "ambientlight 1 1 1\n b 1 1 1\n"
-                                          "material ambient 0.5 diffuse 0 mirror 0.25 transmit 0.25 ior 1.5\n"
-                                          "s 0 0 0 1\n s 1.2 0.3 0.5 0.7\n c -1 -1 0 0.5 -1 1 0 0.25\n disc 0 -1 0 0 1 0.2 3\n"
-                                          "p 3 -2 0 1 2 0 1 0 2 1\n", settings));
+    ASSERT_TRUE(loaded<N>(view("24 24")
+                              + "ambientlight 1 1 1\n b 1 1 1\n"
+                                "material ambient 0.5 diffuse 0 mirror 0.25 transmit 0.25 ior 1.5\n"
+                                "s 0 0 0 1\n s 1.2 0.3 0.5 0.7\n c -1 -1 0 0.5 -1 1 0 0.25\n disc 0 -1 0 0 1 0.2 3\n"
+                                "p 3 -2 0 1 2 0 1 0 2 1\n",
+                          settings));
     double most = 0;
     for (uint32_t j = 0; j < 24; j++)
         for (uint32_t i = 0; i < 24; i++) {
@@ -287,8 +294,10 @@ TYPED_TEST(ImageTest, LightFromTheFarCornerIsBlocked)
 {
     using N = TypeParam;
     for (double light = 10; light < 200; light *= 1.25) {
-        const std::string text = "v from -20 -30 -30 at -30 -30 -30 up 0 1 0 angle 1 hither 1 resolution 1 1\n ambientlight 0 0 0\n l "
-            + std::to_string(light) + " " + std::to_string(light) + " " + std::to_string(light) + " 1 1 1\n s -30 -30 -30 0.5\n";
+        const std::string text =
+            "v from -20 -30 -30 at -30 -30 -30 up 0 1 0 angle 1 hither 1 resolution 1 1\n ambientlight 0 0 0\n l "
+            + std::to_string(light) + " " + std::to_string(light) + " " + std::to_string(light)
+            + " 1 1 1\n s -30 -30 -30 0.5\n";
         ASSERT_TRUE(loaded<N>(text + "material\n s 0 0 0 25\n shadows off"));
         EXPECT_GT(light_at<N>(0, 0).x, 0.5) << light;
         ASSERT_TRUE(loaded<N>(text + "material\n s 0 0 0 25\n"));
@@ -310,7 +319,8 @@ TYPED_TEST(ImageTest, OccluderJustBeyondTheLightDoesNotBlockIt)
     using N = TypeParam;
     for (const char* height : {"4.001", "4.1", "8"}) {
         ASSERT_TRUE(loaded<N>("v from 0 3 10 at 0 0 0 up 0 1 0 angle 20 hither 1 resolution 5 5\n l 0 4 0 1 1 1\n"
-                              "ambientlight 0 0 0\n plane 0 0 0 0 1 0\n far 40\n disc 0 " + std::string(height) + " 0 0 1 0 20"));
+                              "ambientlight 0 0 0\n plane 0 0 0 0 1 0\n far 40\n disc 0 "
+                              + std::string(height) + " 0 0 1 0 20"));
         expect_light(light_at<N>(2, 2), {1, 1, 1}, 4 * light_tolerance<N>());
     }
 }
@@ -319,7 +329,8 @@ TYPED_TEST(ImageTest, LightOnASurfaceIsNotBlockedByIt)
 {
     using N = TypeParam;
     // The light lies on a ball's lowest point, and in a disc.
-    for (const char* object : {"s 0 5 0 1", "disc 0 4 0 0 1 0 3", "c -3 4.5 0 0.5 3 4.5 0 0.5", "p 3 -3 4 -3 3 4 -3 0 4 6"}) {
+    for (const char* object :
+         {"s 0 5 0 1", "disc 0 4 0 0 1 0 3", "c -3 4.5 0 0.5 3 4.5 0 0.5", "p 3 -3 4 -3 3 4 -3 0 4 6"}) {
         ASSERT_TRUE(loaded<N>("v from 0 3 10 at 0 0 0 up 0 1 0 angle 20 hither 1 resolution 5 5\n l 0 4 0 1 1 1\n"
                               "ambientlight 0 0 0\n plane 0 0 0 0 1 0\n far 40\n" + std::string(object)));
         expect_light(light_at<N>(2, 2), {1, 1, 1}, 4 * light_tolerance<N>());
@@ -394,7 +405,8 @@ TYPED_TEST(ImageTest, FacingMirrorsOfWeightOneKeepEverything)
     scene::Settings settings;
     settings.depth = 64;
     ASSERT_TRUE(loaded<N>("v from 0 0 1 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 3 3\n"
-                          "ambientlight 0.0078125 0.0078125 0.0078125\n b 1 1 1\n material mirror 1\n disc 0 0 0 0 0 1 20\n disc 0 0 2 0 0 1 20",
+                          "ambientlight 0.0078125 0.0078125 0.0078125\n b 1 1 1\n material mirror 1\n disc 0 0 0 0 0 1 "
+                          "20\n disc 0 0 2 0 0 1 20",
                           settings));
     expect_light(light_at<N>(1, 1), {0.5, 0.5, 0.5}, 4 * light_tolerance<N>()); // 64 / 128
 }
@@ -403,7 +415,9 @@ TYPED_TEST(ImageTest, FacingMirrorsOfWeightOneKeepEverything)
 TYPED_TEST(ImageTest, ThinPaneShowsTheBackgroundTimesItsShare)
 {
     using N = TypeParam;
-    ASSERT_TRUE(loaded<N>(view() + "b 0.5 1 0.25\n ambientlight 0 0 0\n material transmit 0.5 ior 1\n disc 0 0 0 0 0 1 20\n disc 0 0 -1 0 0 1 20"));
+    ASSERT_TRUE(loaded<N>(view()
+                          + "b 0.5 1 0.25\n ambientlight 0 0 0\n material transmit 0.5 ior 1\n disc 0 0 0 0 0 1 20\n "
+                            "disc 0 0 -1 0 0 1 20"));
     for (uint32_t j = 0; j < 9; j++)
         for (uint32_t i = 0; i < 9; i++)
             expect_light(light_at<N>(i, j), {0.125, 0.25, 0.0625}, light_tolerance<N>());
@@ -416,14 +430,19 @@ TYPED_TEST(ImageTest, TotalInternalReflectionGivesTheMirrorBothShares)
     const struct {
         const char* material;
         double weight;
-    } cases[] = {{"transmit 0.5", 0.5}, {"transmit 0.5 mirror 0.25", 0.75}, {"transmit 0.75 mirror 0.5", 1}, {"transmit 1", 1}};
+    } cases[] = {
+        {"transmit 0.5", 0.5}, {"transmit 0.5 mirror 0.25", 0.75}, {"transmit 0.75 mirror 0.5", 1}, {"transmit 1", 1}};
     for (const auto& c : cases) {
         scene::Settings settings;
         settings.depth = 2;
         // The outward normal points away from the eye, so that it is inside.
-        ASSERT_TRUE(loaded<N>("v from 0 0 5 at 0 0 0 up 0 1 0 angle 2 hither 1 resolution 3 3\n b 0 0 0\n ambientlight 1 1 1\n"
-                              "material colour 0 0 0 ior 2 " + std::string(c.material) + "\n disc 0 0 0 1 0 -1 3\n"
-                              "material colour 1 0.5 0.25\n disc -10 0 0 1 0 0 5\n disc 0 0 -10 0 0 1 5", settings));
+        ASSERT_TRUE(
+            loaded<N>("v from 0 0 5 at 0 0 0 up 0 1 0 angle 2 hither 1 resolution 3 3\n b 0 0 0\n ambientlight 1 1 1\n"
+                      "material colour 0 0 0 ior 2 "
+                          + std::string(c.material)
+                          + "\n disc 0 0 0 1 0 -1 3\n"
+                            "material colour 1 0.5 0.25\n disc -10 0 0 1 0 0 5\n disc 0 0 -10 0 0 1 5",
+                      settings));
         RayCount count;
         const Vec3 light = light_at<N>(1, 1, &count);
         expect_light(light, {c.weight, 0.5 * c.weight, 0.25 * c.weight}, 4 * light_tolerance<N>());
@@ -438,9 +457,11 @@ TYPED_TEST(ImageTest, RefractedRayGoesWhereSnellSays)
     using N = TypeParam;
     scene::Settings settings;
     settings.depth = 2;
-    ASSERT_TRUE(loaded<N>("v from -3 0 4 at 0 0 0 up 0 1 0 angle 2 hither 1 resolution 3 3\n b 0 0 0\n ambientlight 1 1 1\n"
-                          "material colour 0 0 0 ior 2 transmit 0.5\n disc 0 0 0 0 0 1 3\n"
-                          "material colour 1 1 1\n texture gradient 0 0 0 16 1 0 0\n disc 0 0 -4 0 0 1 5", settings));
+    ASSERT_TRUE(
+        loaded<N>("v from -3 0 4 at 0 0 0 up 0 1 0 angle 2 hither 1 resolution 3 3\n b 0 0 0\n ambientlight 1 1 1\n"
+                  "material colour 0 0 0 ior 2 transmit 0.5\n disc 0 0 0 0 0 1 3\n"
+                  "material colour 1 1 1\n texture gradient 0 0 0 16 1 0 0\n disc 0 0 -4 0 0 1 5",
+                  settings));
     // sin 0.6 outside, 0.3 inside: at 4 below the surface it is 4 tan = 1.2579 to the right.
     const double x = 4 * 0.3 / std::sqrt(1 - 0.09), level = 0.5 * (1 - x / 16);
     expect_light(light_at<N>(1, 1), {level, level, level}, 8 * light_tolerance<N>());
@@ -464,7 +485,8 @@ TYPED_TEST(ImageTest, SamplesAreTheCentresOfTheirCells)
 {
     using N = TypeParam;
     // A picture of n x n the size with one sample each holds the samples; its means are clamped and rounded.
-    const std::string scene = "l 3 4 5 1 1 1\n b 0.2 0.3 0.4\n f 0.9 0.7 0.5 0.8 0.2 20 0 1\n s 0 0 0 1\n s 1 1 -1 0.5\n";
+    const std::string scene =
+        "l 3 4 5 1 1 1\n b 0.2 0.3 0.4\n f 0.9 0.7 0.5 0.8 0.2 20 0 1\n s 0 0 0 1\n s 1 1 -1 0.5\n";
     for (uint32_t n : {2u, 3u, 4u}) {
         scene::Settings settings;
         settings.grid = n;
@@ -484,7 +506,8 @@ TYPED_TEST(ImageTest, SamplesAreTheCentresOfTheirCells)
                 const Pixel q = p.at(i, j);
                 const Vec3 mean = sum * (1. / (n * n));
                 const double slack = 8 * light_tolerance<N>();
-                ASSERT_TRUE(is_byte_of(q.r, mean.x, slack) && is_byte_of(q.g, mean.y, slack) && is_byte_of(q.b, mean.z, slack))
+                ASSERT_TRUE(is_byte_of(q.r, mean.x, slack) && is_byte_of(q.g, mean.y, slack)
+                            && is_byte_of(q.b, mean.z, slack))
                     << i << " " << j << " of " << n;
             }
     }
@@ -643,7 +666,8 @@ TYPED_TEST(ImageTest, OfCoincidentSurfacesTheFirstInTheFileWins)
                  {"plane 0 0 1 0 0 1\n", "disc 0 0 1 0 0 1 2\n"},
                  {"p 3 -2 -2 1 3 -2 1 0 3 1\n", "pp 3 -2 -2 1 0 0 1 3 -2 1 0 0 1 0 3 1 0 0 1\n"}};
     for (const auto& pair : pairs) {
-        if (NarrowFixed<N> && pair.a[0] == 'd' && pair.b[0] == 'p') // their distances, of 14 bits, are computed in two ways
+        if (NarrowFixed<N> && pair.a[0] == 'd'
+            && pair.b[0] == 'p') // their distances, of 14 bits, are computed in two ways
             continue;
         const std::string head = view("3 3", "10") + "ambientlight 1 1 1\n b 0 0 1\n";
         ASSERT_TRUE(loaded<N>(head + red + pair.a + green + pair.b));
@@ -656,7 +680,8 @@ TYPED_TEST(ImageTest, OfCoincidentSurfacesTheFirstInTheFileWins)
 TYPED_TEST(ImageTest, EveryShapeStandsWhereItsNumbersSay)
 {
     using N = TypeParam;
-    const std::string head = view("3 3", "10") + "b 0 0 0\n ambientlight 0 0 0\n sun 0 0 1 1 1 1\n shadows off\n far 40\n";
+    const std::string head =
+        view("3 3", "10") + "b 0 0 0\n ambientlight 0 0 0\n sun 0 0 1 1 1 1\n shadows off\n far 40\n";
     // The cosine of each one's normal with the line of sight, and the point's distance by a gradient along z.
     const struct {
         const char* object;
@@ -684,10 +709,13 @@ TYPED_TEST(ImageTest, ScaleOfAWholeSceneDoesNotMatter)
     for (double k : {1.0, 0x1p-20, 0x1p10, 0x1p40}) {
         char text[2000];
         snprintf(text, sizeof text,
-                 "v from %.17g %.17g %.17g at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 32 24\n b 0.1 0.2 0.3\n l %.17g %.17g %.17g\n"
-                 "f 0.9 0.7 0.5 0.6 0.3 20 0 1\n s %.17g 0 0 %.17g\n f 0.5 0.7 0.9 0.6 0.3 7 0.5 1.5\n s %.17g 0 %.17g %.17g\n"
+                 "v from %.17g %.17g %.17g at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 32 24\n b 0.1 0.2 0.3\n l "
+                 "%.17g %.17g %.17g\n"
+                 "f 0.9 0.7 0.5 0.6 0.3 20 0 1\n s %.17g 0 0 %.17g\n f 0.5 0.7 0.9 0.6 0.3 7 0.5 1.5\n s %.17g 0 %.17g "
+                 "%.17g\n"
                  "f 0.5 0.9 0.5 0.6 0.2 7 0 1\n texture checker 0 0 0.5 %.17g\n disc 0 %.17g 0 0 1 0 %.17g\n",
-                 k, 2 * k, 5 * k, 3 * k, 4 * k, 5 * k, 0.75 * k, 0.5 * k, -0.5 * k, 0.5 * k, 0.375 * k, 0.5 * k, -0.75 * k, 4 * k);
+                 k, 2 * k, 5 * k, 3 * k, 4 * k, 5 * k, 0.75 * k, 0.5 * k, -0.5 * k, 0.5 * k, 0.375 * k, 0.5 * k,
+                 -0.75 * k, 4 * k);
         ASSERT_TRUE(loaded<N>(text));
         const Picture p = draw<N>();
         if (k == 1)

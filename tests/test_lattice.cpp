@@ -74,7 +74,8 @@ TYPED_TEST(LatticeTest, AgreesWithTheDivision)
     double worst = 0;
     int wrong = 0;
     for (int i = 0; i < 20000; i++) {
-        const Placing at{std::exp2(random.uniform(NarrowFixed<N> ? -3 : -8, 5)), random.point(20), std::ldexp(1, static_cast<int>(random.bits() % 7) - 3)};
+        const Placing at{std::exp2(random.uniform(NarrowFixed<N> ? -3 : -8, 5)), random.point(20),
+                         std::ldexp(1, static_cast<int>(random.bits() % 7) - 3)};
         const Vec3 along = i % 2 == 0 ? Vec3{1, 0, 0} : random.direction();
         const auto axis = make_axis<N>(at, along, 0, true);
         const auto q = M::point(random.point(30));
@@ -151,7 +152,8 @@ TYPED_TEST(LatticeTest, FarRingsAreRight)
     const auto r = M::point(24, 0, 31.9375);
     const double rho = std::hypot(24, 31.9375) * 1024;
     if constexpr (NarrowFixed<N>) // whose 15 bits are four of these cells
-        EXPECT_NEAR(radial_cell<N>(x.bounded(r), z.bounded(r), true).index, rho, radial_tolerance<N>(24 * 1024, 32 * 1024));
+        EXPECT_NEAR(radial_cell<N>(x.bounded(r), z.bounded(r), true).index, rho,
+                    radial_tolerance<N>(24 * 1024, 32 * 1024));
     else
         EXPECT_EQ(radial_cell<N>(x.bounded(r), z.bounded(r), true).index, static_cast<uint32_t>(rho));
 }

@@ -63,7 +63,8 @@ TYPED_TEST(LightTest, AgreesWithTheSubtraction)
         typename N::Length distance{};
         ASSERT_TRUE(towards(light, q, l, distance));
         worst = std::fmax(worst, test::distance(value(l), rounded(unit(v))));
-        worst_distance = std::fmax(worst_distance, static_cast<double>(std::fabs(value(distance) - length(v))) / M::length_ulp(24));
+        worst_distance =
+            std::fmax(worst_distance, static_cast<double>(std::fabs(value(distance) - length(v))) / M::length_ulp(24));
     }
     EXPECT_LE(worst, 2 * M::unit_ulp() + (N::is_fixed ? 0 : 1) * M::unit_ulp(24));
     EXPECT_LE(worst_distance, N::is_fixed ? 2 : 4); // v, l and their dot product round

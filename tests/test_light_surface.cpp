@@ -28,18 +28,18 @@ std::string text_of(const Vec3& v)
     return text;
 }
 
-
-// A floor of radius 8 at height 0 under a shape that holds the lamp, seen from above. `within` tells how far a floor point
-// is inside of the light, in lengths; what is nearer to the edge than 0.06 may go either way.
+// A floor of radius 8 at height 0 under a shape that holds the lamp, seen from above. `within` tells how far a floor
+// point is inside of the light, in lengths; what is nearer to the edge than 0.06 may go either way.
 template <class N, class Within>
 void expect_floor(const Turn& t, const std::string& shape, const Vec3& lamp, Within within)
 {
     constexpr int size = 24;
     const double half = std::tan(25 * M_PI / 180);
-    ASSERT_TRUE(loaded<N>("ambientlight 0 0 0.25 l" + text_of(t(lamp)) + " 1 1 1 v from" + text_of(t({0, 20, 0})) + " at"
-                          + text_of(t({0, 0, 0})) + " up" + text_of(t({0, 0, 1})) + " angle 50 hither 1 resolution "
-                          + std::to_string(size) + " " + std::to_string(size) + " material ambient 0 disc"
-                          + text_of(t({0, 0, 0})) + text_of(t({0, 1, 0})) + " 8 material diffuse 0 " + shape));
+    ASSERT_TRUE(loaded<N>("ambientlight 0 0 0.25 l" + text_of(t(lamp)) + " 1 1 1 v from" + text_of(t({0, 20, 0}))
+                          + " at" + text_of(t({0, 0, 0})) + " up" + text_of(t({0, 0, 1}))
+                          + " angle 50 hither 1 resolution " + std::to_string(size) + " " + std::to_string(size)
+                          + " material ambient 0 disc" + text_of(t({0, 0, 0})) + text_of(t({0, 1, 0}))
+                          + " 8 material diffuse 0 " + shape));
     EXPECT_TRUE(storage<N>().effects.light_surface);
     int lit = 0, dark = 0;
     for (int j = 0; j < size; j++)
@@ -69,7 +69,8 @@ TYPED_TEST(LightSurfaces, OfABallLetTheLightAwayFromIt)
         const Vec3 lamp = centre + out * 1.5;
         // The tangent plane at the lamp parts them.
         const double flat = std::hypot(out.x, out.z);
-        expect_floor<N>(t, "s" + text_of(t(centre)) + " 1.5", lamp, [&](const Vec3& q) { return dot(q - lamp, out) / flat; });
+        expect_floor<N>(t, "s" + text_of(t(centre)) + " 1.5", lamp,
+                        [&](const Vec3& q) { return dot(q - lamp, out) / flat; });
     }
 }
 
@@ -82,12 +83,14 @@ TYPED_TEST(LightSurfaces, OfAConeLetTheLightAwayFromItAndThroughItsEnd)
         for (int k = 0; k < 6; k++) {
             const Turn t = turn(random);
             // From height 0.5 and radius 1.5 to height 3.
-            const double slope = (top - 1.5) / 2.5, height = 1 + 0.3 * k, r = 1.5 + slope * (height - 0.5), angle = 1.1 * k;
+            const double slope = (top - 1.5) / 2.5, height = 1 + 0.3 * k, r = 1.5 + slope * (height - 0.5),
+                         angle = 1.1 * k;
             const Vec3 lamp{r * std::cos(angle), height, r * std::sin(angle)};
             const Vec3 out = unit(Vec3{std::cos(angle), -slope, std::sin(angle)});
             const double flat = std::hypot(out.x, out.z);
-            expect_floor<N>(t, "c" + text_of(t({0, 0.5, 0})) + " 1.5" + text_of(t({0, 3, 0})) + " " + std::to_string(top), lamp,
-                            [&](const Vec3& q) {
+            expect_floor<N>(t,
+                            "c" + text_of(t({0, 0.5, 0})) + " 1.5" + text_of(t({0, 3, 0})) + " " + std::to_string(top),
+                            lamp, [&](const Vec3& q) {
                                 const double away = dot(q - lamp, out) / flat;
                                 const Vec3 end = lamp + (q - lamp) * ((height - 0.5) / height);
                                 const double through = (1.5 - std::hypot(end.x, end.z)) * height / (height - 0.5);
@@ -104,7 +107,8 @@ TYPED_TEST(LightSurfaces, KnowOnWhichSideTheLightIs)
         char text[400];
         // Within a ball, at its lowest point: the ball's lower half is seen from within.
         std::snprintf(text, sizeof text,
-                      "ambientlight 0 0 0 l 0 %.17g 0 1 1 1 v from 0 0 0 at 0 -1 0.3 up 0 0 1 angle 20 hither 1 resolution 1 1 s 0 0 0 2",
+                      "ambientlight 0 0 0 l 0 %.17g 0 1 1 1 v from 0 0 0 at 0 -1 0.3 up 0 0 1 angle 20 hither 1 "
+                      "resolution 1 1 s 0 0 0 2",
                       -2 - off);
         ASSERT_TRUE(loaded<N>(text));
         EXPECT_EQ(light_at<N>(0, 0).x > 0, off < 0) << off;

@@ -92,8 +92,8 @@ TYPED_TEST(MeshTest, DisplacedSphere)
     expect_watertight<TypeParam>(m, 3000);
 }
 
-// Around its poles a flat body of 200 slices has triangles 0.02 wide and 6 long, along its rim others of 0.6 by 6e-3. In
-// q16 it is ten times as thick: mirrors turn the aim of some rays by more than half of 0.02 at its distance.
+// Around its poles a flat body of 200 slices has triangles 0.02 wide and 6 long, along its rim others of 0.6 by 6e-3.
+// In q16 it is ten times as thick: mirrors turn the aim of some rays by more than half of 0.02 at its distance.
 TYPED_TEST(MeshTest, Needles)
 {
     Random random(6);

@@ -65,8 +65,8 @@ size_t differing(const Picture& a, const Picture& b, int levels)
     return count;
 }
 
-// Pixels that may differ by more than one level: on silhouettes and edges, where a sample falls on one side or the other.
-// An ulp of q16 is here a 250th of a pixel, along a thousand pixels of edges, some of them seen in a mirror.
+// Pixels that may differ by more than one level: on silhouettes and edges, where a sample falls on one side or the
+// other. An ulp of q16 is here a 250th of a pixel, along a thousand pixels of edges, some of them seen in a mirror.
 template <class N>
 size_t few_pixels()
 {
@@ -108,12 +108,13 @@ TYPED_TEST(Metamorphic, Mirrored)
     for (uint32_t j = 0; j < q.height; j++)
         for (uint32_t i = 0; i < q.width / 2; i++)
             for (uint32_t k = 0; k < 3; k++)
-                std::swap(q.rgb[(size_t{j} * q.width + i) * 3 + k], q.rgb[(size_t{j} * q.width + q.width - 1 - i) * 3 + k]);
+                std::swap(q.rgb[(size_t{j} * q.width + i) * 3 + k],
+                          q.rgb[(size_t{j} * q.width + q.width - 1 - i) * 3 + k]);
     expect_same<TypeParam>(p, q);
 }
 
-// Pixels in which two surfaces are met at the same t, so that their order decides: one in five thousand in q16, whose steps
-// of t are a millimetre in a metre.
+// Pixels in which two surfaces are met at the same t, so that their order decides: one in five thousand in q16, whose
+// steps of t are a millimetre in a metre.
 template <class N>
 constexpr size_t ties = NarrowFixed<N> ? 2 : 0;
 
@@ -143,9 +144,11 @@ TYPED_TEST(Metamorphic, QuartersMakeTheWhole)
             for (uint32_t j = 0; j < part.height; j++)
                 for (uint32_t i = 0; i < part.width; i++)
                     for (int k = 0; k < 3; k++) {
-                        const size_t at = ((j + static_cast<size_t>(y * step)) * whole.width + i + static_cast<size_t>(x * step)) * 3;
+                        const size_t at =
+                            ((j + static_cast<size_t>(y * step)) * whole.width + i + static_cast<size_t>(x * step)) * 3;
                         const size_t in_part = (size_t{j} * part.width + i) * 3;
-                        wrong += std::abs(whole.rgb[at + static_cast<size_t>(k)] - part.rgb[in_part + static_cast<size_t>(k)])
+                        wrong += std::abs(whole.rgb[at + static_cast<size_t>(k)]
+                                          - part.rgb[in_part + static_cast<size_t>(k)])
                             > (N::is_fixed ? 0 : 1);
                     }
             EXPECT_LE(wrong, N::is_fixed ? 0 : 3 * few_pixels<N>());
@@ -163,12 +166,14 @@ TYPED_TEST(Metamorphic, FinerPicturesHoldTheCoarser)
     for (uint32_t j = 0; j < p.height; j++)
         for (uint32_t i = 0; i < p.width; i++)
             for (uint32_t k = 0; k < 3; k++)
-                middle.rgb[(size_t{j} * p.width + i) * 3 + k] = q.rgb[(size_t{3 * j + 1} * q.width + 3 * i + 1) * 3 + k];
+                middle.rgb[(size_t{j} * p.width + i) * 3 + k] =
+                    q.rgb[(size_t{3 * j + 1} * q.width + 3 * i + 1) * 3 + k];
     expect_same<N>(p, middle);
 }
 
-// Speckle: pixels that differ from each of their 8 neighbours by more than 24 levels. Where sampling itself makes such pixels
-// (a checkered floor near its horizon) they are in the double picture too; for double, in that of the scene elsewhere.
+// Speckle: pixels that differ from each of their 8 neighbours by more than 24 levels. Where sampling itself makes such
+// pixels (a checkered floor near its horizon) they are in the double picture too; for double, in that of the scene
+// elsewhere.
 bool isolated(const Picture& p, uint32_t i, uint32_t j)
 {
     for (uint32_t y = j - 1; y <= j + 1; y++)
@@ -177,7 +182,9 @@ bool isolated(const Picture& p, uint32_t i, uint32_t j)
                 continue;
             int most = 0;
             for (uint32_t k = 0; k < 3; k++)
-                most = std::max(most, std::abs(p.rgb[(size_t{j} * p.width + i) * 3 + k] - p.rgb[(size_t{y} * p.width + x) * 3 + k]));
+                most = std::max(
+                    most,
+                    std::abs(p.rgb[(size_t{j} * p.width + i) * 3 + k] - p.rgb[(size_t{y} * p.width + x) * 3 + k]));
             if (most <= 24)
                 return false;
         }

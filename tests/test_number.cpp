@@ -191,9 +191,9 @@ TYPED_TEST(NumberTest, HeadroomIsTheLargestShiftThatStaysBelowOne)
             ASSERT_LT(std::ldexp(largest, k), 1);
             ASSERT_GE(std::ldexp(largest, k + 1), 1);
             for (const auto& c : w)
-                ASSERT_EQ(value(N::shifted(c, k)), k >= 0 ? std::ldexp(value(c), k)
-                                                          : std::ldexp(std::floor(std::ldexp(static_cast<double>(c.raw), k)),
-                                                                       -N::Cosine::frac));
+                ASSERT_EQ(value(N::shifted(c, k)),
+                          k >= 0 ? std::ldexp(value(c), k)
+                                 : std::ldexp(std::floor(std::ldexp(static_cast<double>(c.raw), k)), -N::Cosine::frac));
         }
         // 1 and -1 themselves have none to spare, a power of two below has its exponent's less one.
         const auto one = M::unit(1) * M::unit(1), none = M::unit(0) * M::unit(1);
@@ -309,7 +309,8 @@ TYPED_TEST(NumberTest, NormaliseWorksForLengthsOfEverySize)
             int64_t v[3];
             for (auto& c : v)
                 c = static_cast<int64_t>(random.bits()) >> (64 - bits);
-            const bool low = (v[0] >> 32) == (v[0] >> 63) && (v[1] >> 32) == (v[1] >> 63) && (v[2] >> 32) == (v[2] >> 63);
+            const bool low =
+                (v[0] >> 32) == (v[0] >> 63) && (v[1] >> 32) == (v[1] >> 63) && (v[2] >> 32) == (v[2] >> 63);
             typename N::Unit x{}, y{}, z{};
             const bool any = N::normalise(v[0], v[1], v[2], x, y, z);
             if (low)
@@ -331,7 +332,8 @@ TYPED_TEST(NumberTest, NormaliseKeepsTheSignAtTheEndsOfItsRange)
     using M = make<N>;
     if constexpr (WideFixed<N>) {
         typename N::Unit x{}, y{}, z{};
-        for (int32_t v : {INT32_MIN, INT32_MIN + 1, -0x40000001, -0x40000000, -1, 1, 0x3fffffff, 0x40000000, INT32_MAX}) {
+        for (int32_t v :
+             {INT32_MIN, INT32_MIN + 1, -0x40000001, -0x40000000, -1, 1, 0x3fffffff, 0x40000000, INT32_MAX}) {
             ASSERT_TRUE(N::normalise(0, v, 0, x, y, z));
             EXPECT_NEAR(value(y), v < 0 ? -1 : 1, M::unit_ulp()) << v;
             EXPECT_EQ(value(x), 0);
@@ -381,7 +383,9 @@ double power_tolerance(double x, double exponent)
 {
     const double exact = std::pow(x, exponent), ulp = make<N>::unit_ulp();
     if constexpr (NarrowFixed<N>)
-        return ulp + std::fmax(std::pow(std::fmin(1, x + ulp / 2), exponent) - exact, exact - std::pow(std::fmax(0, x - ulp / 2), exponent));
+        return ulp
+            + std::fmax(std::pow(std::fmin(1, x + ulp / 2), exponent) - exact,
+                        exact - std::pow(std::fmax(0, x - ulp / 2), exponent));
     else if constexpr (N::is_fixed)
         return 0x1p-28;
     else

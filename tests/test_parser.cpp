@@ -746,7 +746,8 @@ TEST(ParserError, Shapes) {
         {VIEW "texture @tartan 0 0 0 1",
          "expected a texture (checker stripes gradient rings noise marble wood brick), "
          "found 'tartan'"},
-        {VIEW "texture @marbel 0 0 0 1", "unknown texture 'marbel'; did you mean 'marble'? expected one of checker stripes"},
+        {VIEW "texture @marbel 0 0 0 1",
+         "unknown texture 'marbel'; did you mean 'marble'? expected one of checker stripes"},
         {VIEW "texture@", "the file ends where a texture"},
         {VIEW "texture @1", "expected a texture"},
         {VIEW "texture brick 0 0 0@", "the file ends where the size of a texture was expected"},
@@ -880,7 +881,8 @@ TEST(Parser, ByteOrderMarks) {
                 for (const char c : view)
                     put(c);
                 EXPECT_FALSE(parsed(text));
-                EXPECT_EQ("scene.nff:1:1: the text is in UTF-" + std::to_string(8 * bytes) + "; expected ASCII or UTF-8",
+                EXPECT_EQ("scene.nff:1:1: the text is in UTF-" + std::to_string(8 * bytes)
+                              + "; expected ASCII or UTF-8",
                           error.text);
             }
     expect_error(view + "@\xef\xbb\xbf", "found the byte 0xef");
@@ -894,7 +896,8 @@ TEST(Parser, RoomIsEnough) {
         spheres += "s 0 0 0 1 ";
     for (int i = 0; i < 200; i++)
         polygon += corners;
-    for (const std::string& text : {view + spheres, view + polygon, view + polygon + " 0", view + "pp 9 0 0 0 0 0 1 0"}) {
+    for (const std::string& text :
+         {view + spheres, view + polygon, view + polygon + " 0", view + "pp 9 0 0 0 0 0 1 0"}) {
         Description tight;
         const size_t bytes = tight.lay_out(text.size());
         std::vector<uint8_t> room(bytes + Layout::alignment);
@@ -1130,7 +1133,8 @@ TEST(Parser, SurvivesBrokenTexts) {
                 const Object& object = scene.objects[k];
                 ASSERT_LT(object.fill, scene.fill_count);
                 ASSERT_LE(object.vertex + object.count, scene.vertex_count);
-                ASSERT_TRUE((object.ra >= 0 && object.ra <= 1e15) || (object.kind == Kind::disc && object.ra == HUGE_VAL));
+                ASSERT_TRUE((object.ra >= 0 && object.ra <= 1e15)
+                            || (object.kind == Kind::disc && object.ra == HUGE_VAL));
                 ASSERT_TRUE(object.rb >= 0 && object.rb <= 1e15);
             }
         } else {

@@ -128,7 +128,8 @@ TYPED_TEST(PolygonTest, AgreesWithThePlaneAndTheSidesOfATriangle)
     EXPECT_LE(worst, 2);
 }
 
-// Of the ray's direction and two corners seen from its origin, in steps of the number system: on which side the edge passes.
+// Of the ray's direction and two corners seen from its origin, in steps of the number system: on which side the edge
+// passes.
 template <class N>
 __int128 volume(const Ray<N>& ray, const Point<N>& a, const Point<N>& b)
 {
@@ -138,7 +139,8 @@ __int128 volume(const Ray<N>& ray, const Point<N>& a, const Point<N>& b)
     };
     const auto u = from(a), v = from(b);
     const auto& d = ray.direction;
-    return d.x.raw * (u[1] * v[2] - u[2] * v[1]) + d.y.raw * (u[2] * v[0] - u[0] * v[2]) + d.z.raw * (u[0] * v[1] - u[1] * v[0]);
+    return d.x.raw * (u[1] * v[2] - u[2] * v[1]) + d.y.raw * (u[2] * v[0] - u[0] * v[2])
+        + d.z.raw * (u[0] * v[1] - u[1] * v[0]);
 }
 
 // For fixed point; in floating point corners are rounded when they are sheared.
@@ -158,7 +160,8 @@ void expect_exact_edges()
         const Vec3 b = a + along, c = a + along * random.uniform(0.1, 0.9) + cross(unit(along), g) * width;
         const PolygonOf<N> s({a, b, c});
         for (int i = 0; i < 10; i++) {
-            const Vec3 at = a + along * random.uniform(0, 1) + cross(unit(along), g) * (width * random.uniform(-0.5, 1));
+            const Vec3 at =
+                a + along * random.uniform(0, 1) + cross(unit(along), g) * (width * random.uniform(-0.5, 1));
             const Vec3 from = at + (g + random.point(0.5)) * random.uniform(1, 15);
             const auto ray = M::ray(from, at - from);
             const auto* p = s.points.data();

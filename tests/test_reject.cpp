@@ -126,14 +126,16 @@ TYPED_TEST(RejectTest, NoPlaneThatIsMetIsTurnedAway)
         const Vec3 from = in_world(random);
         // Often close to the plane, and nearly along it.
         const Vec3 n = value(normal);
-        const Vec3 start = i % 3 == 0 ? from - n * (dot(n, from - value(centre)) * (1 - std::exp2(random.uniform(-20, 0)))) : from;
+        const Vec3 start =
+            i % 3 == 0 ? from - n * (dot(n, from - value(centre)) * (1 - std::exp2(random.uniform(-20, 0)))) : from;
         Vec3 d = random.direction();
         if (i % 2 == 0)
             d = unit(d - n * (dot(n, d) * (1 - std::exp2(random.uniform(-12, 0)))));
         if (length(start) > 62)
             continue;
         const auto ray = M::ray(start, d);
-        const Real num = dot(real(normal), real(centre) - real(ray.origin)), den = dot(real(normal), real(ray.direction));
+        const Real num = dot(real(normal), real(centre) - real(ray.origin)),
+                   den = dot(real(normal), real(ray.direction));
         const bool meets = den != 0 && num / den > 0;
         met += meets;
         wrong += meets && RejectRay<N>(ray).misses_plane(centre, normal);

@@ -17,15 +17,17 @@ constexpr Effects balls(bool grid)
     return e;
 }
 
-const std::string scene_text = "v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 13 7\n b 0.1 0.5 0.9\n l 3 4 5 1 1 1\n"
-                               "material colour 0.9 0.5 0.2\n s 0.3 0.1 0 1\n shadows off\n";
+const std::string scene_text =
+    "v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 13 7\n b 0.1 0.5 0.9\n l 3 4 5 1 1 1\n"
+    "material colour 0.9 0.5 0.2\n s 0.3 0.1 0 1\n shadows off\n";
 
 TYPED_TEST(RenderTest, APictureOfNothingIsItsBackground)
 {
     using N = TypeParam;
     ASSERT_TRUE(loaded<N>("v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 3 2\n b 0 1 0.5"));
     const Picture p = draw<N, Effects{}>();
-    EXPECT_EQ(p.rgb, (std::vector<uint8_t>{0, 255, 128, 0, 255, 128, 0, 255, 128, 0, 255, 128, 0, 255, 128, 0, 255, 128}));
+    EXPECT_EQ(p.rgb,
+              (std::vector<uint8_t>{0, 255, 128, 0, 255, 128, 0, 255, 128, 0, 255, 128, 0, 255, 128, 0, 255, 128}));
 }
 
 TYPED_TEST(RenderTest, RowsAreTheSameHoweverManyAtATime)
@@ -45,13 +47,16 @@ TYPED_TEST(RenderTest, BlocksComeFromTheTopAndFitTheirBuffer)
     std::vector<uint8_t> buffer(3 * 13 * 3 + 1, 0xcd);
     std::vector<uint32_t> seen;
     RayCount counted;
-    EXPECT_TRUE(render<Rgb888>(s, buffer.data(), 3, [&](uint32_t first, uint32_t rows, const uint8_t* bytes, uint32_t size) {
-        EXPECT_EQ(bytes, buffer.data());
-        EXPECT_EQ(size, rows * 13 * 3);
-        seen.push_back(first);
-        seen.push_back(rows);
-        return true;
-    }, counted));
+    EXPECT_TRUE(render<Rgb888>(
+        s, buffer.data(), 3,
+        [&](uint32_t first, uint32_t rows, const uint8_t* bytes, uint32_t size) {
+            EXPECT_EQ(bytes, buffer.data());
+            EXPECT_EQ(size, rows * 13 * 3);
+            seen.push_back(first);
+            seen.push_back(rows);
+            return true;
+        },
+        counted));
     EXPECT_EQ(seen, (std::vector<uint32_t>{0, 3, 3, 3, 6, 1}));
     EXPECT_EQ(buffer.back(), 0xcd);
     EXPECT_EQ(counted[RayKind::camera], 13u * 7);
@@ -65,7 +70,8 @@ TYPED_TEST(RenderTest, StopsWhereTheSinkSaysSo)
     std::vector<uint8_t> buffer(13 * 3);
     uint32_t rows_seen = 0;
     RayCount counted;
-    EXPECT_FALSE(render<Rgb888>(s, buffer.data(), 1, [&](uint32_t, uint32_t, const uint8_t*, uint32_t) { return ++rows_seen < 3; }, counted));
+    EXPECT_FALSE(render<Rgb888>(
+        s, buffer.data(), 1, [&](uint32_t, uint32_t, const uint8_t*, uint32_t) { return ++rows_seen < 3; }, counted));
     EXPECT_EQ(rows_seen, 3u);
     EXPECT_EQ(counted[RayKind::camera], 3u * 13);
 }

@@ -43,7 +43,8 @@ void everywhere(uint64_t seed, F check)
 {
     Random random(seed);
     for (int i = 0; i < 4000; i++) {
-        const Placing at{std::exp2(random.uniform(-2, 3)), random.point(8), std::ldexp(1, static_cast<int>(random.bits() % 3))};
+        const Placing at{std::exp2(random.uniform(-2, 3)), random.point(8),
+                         std::ldexp(1, static_cast<int>(random.bits() % 3))};
         const Vec3 axis = random.direction();
         const auto q = make<N>::point(random.point(15));
         check(at, axis, q, texture_point<N>(at, q));
@@ -198,7 +199,8 @@ TYPED_TEST(TextureTest, NoiseIsTheSmoothBlendOfEightCorners)
         const Noise<N> texture{n<N>(), make_lattice<N>(at, 0)};
         // Its slope is at most 3/2 along each axis; 8 ulp are its own, and the blend of the colours adds one.
         const double tolerance = 4.5 * place_tolerance<N>(at) + 9 * M::unit_ulp();
-        ASSERT_NEAR(static_cast<double>(share(value(texture(m<N>(), q)))), static_cast<double>(noise_of(p)), 2 * tolerance);
+        ASSERT_NEAR(static_cast<double>(share(value(texture(m<N>(), q)))), static_cast<double>(noise_of(p)),
+                    2 * tolerance);
     });
 }
 
@@ -226,7 +228,8 @@ TYPED_TEST(TextureTest, WoodIsGrowthRingsAroundAnAxis)
     using N = TypeParam;
     using M = make<N>;
     everywhere<N>(86, [&](const Placing& at, const Vec3& axis, const Point<N>& q, const Vec<Real>& p) {
-        const Vec3 e1 = unit(cross(axis, std::fabs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), e2 = cross(axis, e1);
+        const Vec3 e1 = unit(cross(axis, std::fabs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})),
+                   e2 = cross(axis, e1);
         const Wood<N> texture{n<N>(), make_lattice<N>(at, 0), make_axis<N>(at, e1, 0, false),
                               make_axis<N>(at, e2, 0, false)};
         const Real rho = length(p - real(axis) * dot(p, real(axis)));

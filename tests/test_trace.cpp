@@ -49,8 +49,8 @@ TYPED_TEST(TraceTest, NearestIsTheNearestOfAllKindsInAnyOrder)
 {
     using N = TypeParam;
     // At z = 1, 2, 3, 4, 5, and their places in the file.
-    const char* objects[] = {"s 0 0 0 1\n", "disc 0 0 2 0 0 1 1\n", "c 0 -2 2 1 0 2 2 1\n", "p 3 -1 -1 4 1 -1 4 0 1 4\n",
-                             "pp 3 -1 -1 5 0 0 1 1 -1 5 0 0 1 0 1 5 0 0 1\n"};
+    const char* objects[] = {"s 0 0 0 1\n", "disc 0 0 2 0 0 1 1\n", "c 0 -2 2 1 0 2 2 1\n",
+                             "p 3 -1 -1 4 1 -1 4 0 1 4\n", "pp 3 -1 -1 5 0 0 1 1 -1 5 0 0 1 0 1 5 0 0 1\n"};
     for (int first = 0; first < 5; first++) {
         std::string text = view;
         for (int k = 0; k < 5; k++)
@@ -115,8 +115,8 @@ TYPED_TEST(TraceTest, SurfacesTurnTheirShadingNormalToTheViewer)
 TYPED_TEST(TraceTest, OpaqueSurfacesBlockLightBeforeItsDistanceOnly)
 {
     using N = TypeParam;
-    for (const char* object : {"s 0 0 0 1\n", "disc 0 0 0 0 0 1 1\n", "c 0 -1 0 1 0 1 0 1\n", "p 3 -1 -1 0 1 -1 0 0 1 0\n",
-                               "pp 3 -1 -1 0 0 0 1 1 -1 0 0 0 1 0 1 0 0 0 1\n"}) {
+    for (const char* object : {"s 0 0 0 1\n", "disc 0 0 0 0 0 1 1\n", "c 0 -1 0 1 0 1 0 1\n",
+                               "p 3 -1 -1 0 1 -1 0 0 1 0\n", "pp 3 -1 -1 0 0 0 1 1 -1 0 0 0 1 0 1 0 0 0 1\n"}) {
         ASSERT_TRUE(loaded<N>(view + object));
         const auto scene = storage<N>().template view<shapes()>();
         const auto r = ray<N>({0, 0, 6}, {0, 0, -1});
@@ -146,16 +146,20 @@ TYPED_TEST(TraceTest, SharesOfLightMultiplyWhateverTheOrder)
             const auto scene = storage<N>().template view<see_through()>();
             const auto r = ray<N>({0.1, 0, 7.9}, {0, 0, -1});
             // Each product rounds, so that equality needs the tolerance of n roundings.
-            EXPECT_NEAR(value(light_through(scene, r, N::length_max)), 0.5625 * std::ldexp(1, -n), (n + 2) * make<N>::unit_ulp());
-            EXPECT_NEAR(value(light_through(scene, r, make<N>::length(scaled<N>(10)))), std::ldexp(1, -n), (n + 2) * make<N>::unit_ulp());
+            EXPECT_NEAR(value(light_through(scene, r, N::length_max)), 0.5625 * std::ldexp(1, -n),
+                        (n + 2) * make<N>::unit_ulp());
+            EXPECT_NEAR(value(light_through(scene, r, make<N>::length(scaled<N>(10)))), std::ldexp(1, -n),
+                        (n + 2) * make<N>::unit_ulp());
             // An opaque surface among them.
             ASSERT_TRUE(loaded<N>(text + "material\n disc 0 0 -2 0 0 1 1"));
-            EXPECT_EQ(value(light_through(storage<N>().template view<see_through()>(), ray<N>({0.1, 0, 7.9}, {0, 0, -1}), N::length_max)), 0);
+            EXPECT_EQ(value(light_through(storage<N>().template view<see_through()>(),
+                                          ray<N>({0.1, 0, 7.9}, {0, 0, -1}), N::length_max)),
+                      0);
         }
 }
 
-// Between two panes that mirror m and pass T of the background B, with ambient light a on each: d hits of weight m^k, and
-// behind all but the last a background of weight m^k T.
+// Between two panes that mirror m and pass T of the background B, with ambient light a on each: d hits of weight m^k,
+// and behind all but the last a background of weight m^k T.
 TYPED_TEST(TraceTest, PanesGiveTwoGeometricSeriesOnABoundedStack)
 {
     using N = TypeParam;
@@ -164,12 +168,14 @@ TYPED_TEST(TraceTest, PanesGiveTwoGeometricSeriesOnABoundedStack)
         settings.depth = depth;
         settings.cutoff = 0;
         ASSERT_TRUE(loaded<N>("v from 0 0 1 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 1 1\n b 0.5 0.25 1\n"
-                              "ambientlight 0.125 0.125 0\n material mirror 0.75 transmit 0.25 ior 1.5\n disc 0 0 0 0 0 1 9\n disc 0 0 2 0 0 1 9",
+                              "ambientlight 0.125 0.125 0\n material mirror 0.75 transmit 0.25 ior 1.5\n disc 0 0 0 0 "
+                              "0 1 9\n disc 0 0 2 0 0 1 9",
                               settings));
         const double m = 0.75, hits = (1 - std::pow(m, depth)) / (1 - m), through = 1 - std::pow(m, depth - 1);
         RayCount count;
         const Vec3 light = light_at<N, glass()>(0, 0, &count);
-        expect_light(light, {0.125 * hits + 0.5 * through, 0.125 * hits + 0.25 * through, through}, 4 * light_tolerance<N>());
+        expect_light(light, {0.125 * hits + 0.5 * through, 0.125 * hits + 0.25 * through, through},
+                     4 * light_tolerance<N>());
         EXPECT_EQ(count[RayKind::mirrored], depth - 1);
         EXPECT_EQ(count[RayKind::refracted], depth - 1);
         EXPECT_EQ(count[RayKind::camera], 1u);
@@ -185,7 +191,8 @@ TYPED_TEST(TraceTest, WeightBelowTheCutoffIsNotTraced)
     for (double cutoff : {0.25, NarrowFixed<N> ? 0.25 + 0x1p-14 : 0.2500001}) {
         settings.cutoff = cutoff;
         ASSERT_TRUE(loaded<N>("v from 0 0 1 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 1 1\n b 1 1 1\n"
-                              "ambientlight 0 0 0\n material mirror 0 transmit 0.25 ior 1\n disc 0 0 0 0 0 1 9\n", settings));
+                              "ambientlight 0 0 0\n material mirror 0 transmit 0.25 ior 1\n disc 0 0 0 0 0 1 9\n",
+                              settings));
         const double expected = cutoff <= 0.25 ? 0.25 : 0;
         expect_light(light_at<N, glass()>(0, 0), {expected, expected, expected}, light_tolerance<N>());
     }
@@ -198,8 +205,9 @@ TYPED_TEST(TraceTest, EveryRayOfABinaryTreeIsTraced)
     scene::Settings settings;
     settings.depth = 6;
     settings.cutoff = 0;
-    std::string text = "v from 0 0 0 at 0 0 -1 up 0 1 0 angle 45 hither 1 resolution 1 1\n b 0 0 0\n ambientlight 1 1 1\n"
-                       "material ambient 0.03125 mirror 0.5 transmit 0.5 ior 1\n";
+    std::string text =
+        "v from 0 0 0 at 0 0 -1 up 0 1 0 angle 45 hither 1 resolution 1 1\n b 0 0 0\n ambientlight 1 1 1\n"
+        "material ambient 0.03125 mirror 0.5 transmit 0.5 ior 1\n";
     for (int i = -8; i < 8; i++)
         text += "disc 0 0 " + std::to_string(i + 0.5) + " 0 0 1 9\n";
     ASSERT_TRUE(loaded<N>(text, settings));
@@ -214,8 +222,9 @@ TYPED_TEST(TraceTest, ShadowRaysAreAskedForOnlyWhereLightCanArrive)
 {
     using N = TypeParam;
     // Two lights in front, one behind, and one that shines on nothing.
-    ASSERT_TRUE(loaded<N>("v from 0 0 4 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 1 1\n l 1 0 3\n l 0 1 2\n l 0 0 -2\n"
-                          "material diffuse 1\n disc 0 0 0 0 0 1 9"));
+    ASSERT_TRUE(
+        loaded<N>("v from 0 0 4 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 1 1\n l 1 0 3\n l 0 1 2\n l 0 0 -2\n"
+                  "material diffuse 1\n disc 0 0 0 0 0 1 9"));
     RayCount count;
     (void)light_at<N, see_through()>(0, 0, &count);
     EXPECT_EQ(count[RayKind::shadow], 2u);

@@ -90,7 +90,8 @@ TYPED_TEST(TransmitTest, IsTotallyReflectedBeyondTheCriticalAngle)
         const double critical = std::asin(1 / ior);
         for (double off : {-0.1, -0.01, -0.001, 0.001, 0.01, 0.1}) {
             const double angle = critical + off;
-            EXPECT_EQ(bend<N>(M::direction({0, std::sin(angle), -std::cos(angle)}), n, ior, out), off < 0) << ior << " " << off;
+            EXPECT_EQ(bend<N>(M::direction({0, std::sin(angle), -std::cos(angle)}), n, ior, out), off < 0)
+                << ior << " " << off;
         }
         // Along the surface, almost: e would be as long as ior.
         EXPECT_FALSE(bend<N>(M::direction({1, 0, -0.001}), n, ior, out));
@@ -117,15 +118,16 @@ TYPED_TEST(TransmitTest, IsUnitAndInThePlaneOfIncidence)
         ASSERT_LT(dot(value(out), value(n)), 0); // on to the other side
         worst_length = std::fmax(worst_length, std::fabs(static_cast<double>(length(real(out))) - 1));
         worst_plane = std::fmax(worst_plane, static_cast<double>(std::fabs(dot(real(out), cross(real(d), real(n))))));
-        worst_sine = std::fmax(worst_sine, std::fabs(static_cast<double>(length(cross(real(out), real(n)))) - eta * sine));
+        worst_sine =
+            std::fmax(worst_sine, std::fabs(static_cast<double>(length(cross(real(out), real(n)))) - eta * sine));
     }
     EXPECT_LE(worst_length, 3 * M::unit_ulp());
     EXPECT_LE(worst_plane, 8 * M::unit_ulp());
     EXPECT_LE(worst_sine, 8 * M::unit_ulp());
 }
 
-// A lossless box under a white sky: whatever a ray meets, white comes back. The one through this pixel touches the box's
-// outline, where it meets the face that it would enter and the one that it would leave at the same t.
+// A lossless box under a white sky: whatever a ray meets, white comes back. The one through this pixel touches the
+// box's outline, where it meets the face that it would enter and the one that it would leave at the same t.
 TYPED_TEST(TransmitTest, LosesNoLightAtAnOutline)
 {
     using N = TypeParam;

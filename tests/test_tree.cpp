@@ -50,7 +50,8 @@ void expect_same_hits(uint64_t seed, int count, double size, int rays)
 {
     Random random(seed);
     const double spread = 8;
-    ASSERT_TRUE(loaded<N>("v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3\n" + objects(random, count, spread, size)));
+    ASSERT_TRUE(loaded<N>("v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3\n"
+                          + objects(random, count, spread, size)));
     const auto with = storage<N>().template view<shapes(true)>();
     const auto without = storage<N>().template view<shapes(false)>();
     const double k = value(with.camera.eye.z) / 8 * 1.2;
@@ -69,7 +70,8 @@ void expect_same_hits(uint64_t seed, int count, double size, int rays)
             ASSERT_EQ(a.index, b.index);
         }
         const auto distance = make<N>::length(random.uniform(1, 20));
-        ASSERT_EQ(light_blocked(with, ray, distance), light_blocked(without, ray, distance)) << count << " objects, ray " << i;
+        ASSERT_EQ(light_blocked(with, ray, distance), light_blocked(without, ray, distance))
+            << count << " objects, ray " << i;
     }
     EXPECT_GT(hits, 0) << count;
 }

@@ -107,7 +107,8 @@ TYPED_TEST(VecTest, NormaliseGivesTheUnitVector)
         ASSERT_TRUE(normalise<N>(given, u));
         worst = std::fmax(worst, distance(value(u), unit(value(given))));
     }
-    // In floating point a square root, a division and a product, half an ulp each, and the rounding of a sum of squares.
+    // In floating point a square root, a division and a product, half an ulp each, and the rounding of a sum of
+    // squares.
     EXPECT_LE(worst, N::is_fixed ? M::unit_ulp() : 2 * M::unit_ulp());
 }
 

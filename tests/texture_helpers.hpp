@@ -29,7 +29,8 @@ LatticeStep<N> make_step(const Placing& at, const Vec3& along, double offset)
 template <class N>
 Lattice<N> make_lattice(const Placing& at, double offset)
 {
-    return {make_step<N>(at, {1, 0, 0}, offset), make_step<N>(at, {0, 1, 0}, offset), make_step<N>(at, {0, 0, 1}, offset)};
+    return {make_step<N>(at, {1, 0, 0}, offset), make_step<N>(at, {0, 1, 0}, offset),
+            make_step<N>(at, {0, 0, 1}, offset)};
 }
 template <class N>
 Vec<Real> texture_point(const Placing& at, const Point<N>& q)
@@ -37,14 +38,16 @@ Vec<Real> texture_point(const Placing& at, const Point<N>& q)
     return (real(q) * (1 / Real(at.scale)) + real(at.origin)) * (1 / Real(at.size));
 }
 
-// How far p may be off where q reaches so far: the row's 30 bits; in q16 a row that is exact to 2^-14 of what p can be in
-// the whole world; or a float sum of three products and an offset.
+// How far p may be off where q reaches so far: the row's 30 bits; in q16 a row that is exact to 2^-14 of what p can be
+// in the whole world; or a float sum of three products and an offset.
 template <class N>
 double place_tolerance(const Placing& at, double q_reach)
 {
     const double reach = (NarrowFixed<N> ? 62.5 : q_reach) / at.scale / at.size + 1;
     const double with_origin = reach + length(at.origin) / at.size;
-    return NarrowFixed<N> ? reach * 0x1p-14 : N::is_fixed ? with_origin * 0x1p-29 : with_origin * 6 * value(N::ulp) / 64;
+    return NarrowFixed<N> ? reach * 0x1p-14
+        : N::is_fixed     ? with_origin * 0x1p-29
+                          : with_origin * 6 * value(N::ulp) / 64;
 }
 
 // Distance to the nearest integer.

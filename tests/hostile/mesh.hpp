@@ -166,8 +166,9 @@ public:
                 d = -d;
             const bool above = qray::dot<N>(s.normal, d) > typename N::Cosine{};
             const auto n_d = N::unit(qray::dot<N>(s.normal, d));
-            ray = tally.bounces % 2 == 0 ? qray::going_on<N, effects(true)>(s, hit.kind, hit.tag, d, above, above ? n_d : -n_d)
-                                         : qray::leaving<N, effects(true)>(s, hit.kind, hit.tag, d, above);
+            ray = tally.bounces % 2 == 0
+                ? qray::going_on<N, effects(true)>(s, hit.kind, hit.tag, d, above, above ? n_d : -n_d)
+                : qray::leaving<N, effects(true)>(s, hit.kind, hit.tag, d, above);
         }
         return tally;
     }

@@ -172,7 +172,7 @@ struct Meetings {
             std::swap(steep[0], steep[1]);
         }
     }
-    // Is meeting i within the rims or without them, and ahead or behind, whatever an error of the height of a few ulp does?
+    // Is meeting i within the rims or without them, and ahead or behind, whatever errors of a few ulp do?
     bool certain(int i, R few) const
     {
         const R along = few * (1 + 1 / (steep[i] > few ? steep[i] : few));

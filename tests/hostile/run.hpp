@@ -34,7 +34,8 @@ constexpr const char* system_name()
         return sizeof(typename N::Length) == 4 ? "float" : "double";
 }
 
-template <class N, template <class> class Trial, template <class, template <class> class> class Beside = Nobody, class F>
+template <class N, template <class> class Trial, template <class, template <class> class> class Beside = Nobody,
+          class F>
 void rows_of(const Selection& selection, uint64_t rays, F f)
 {
     if ((!selection.shape.empty() && selection.shape != Trial<N>::name)

@@ -13,8 +13,8 @@ uint64_t draw_both(const char* system, uint64_t seed, uint64_t scenes)
     for (const bool energy : {false, true}) {
         SceneTally t;
         draw_random<N>(seed + energy, scenes, energy, t);
-        std::printf("%-6s %-18s %llu scenes, %llu drawn: %llu negative, %llu too bright, %llu with too many rays\n", system,
-                    energy ? "energy-conserving," : "any,", static_cast<unsigned long long>(t.scenes),
+        std::printf("%-6s %-18s %llu scenes, %llu drawn: %llu negative, %llu too bright, %llu with too many rays\n",
+                    system, energy ? "energy-conserving," : "any,", static_cast<unsigned long long>(t.scenes),
                     static_cast<unsigned long long>(t.accepted), static_cast<unsigned long long>(t.negative),
                     static_cast<unsigned long long>(t.brighter), static_cast<unsigned long long>(t.too_many_rays));
         if (!t.first_fault.empty())

@@ -135,7 +135,8 @@ struct SphereTrial {
     // How far a point lies outside.
     Wide outside(const Vec3<Wide>& p) const
     {
-        return length(p - exact_centre<Wide, N>(shape.centre, shape)) - exact<Wide>(shape.radius) / Wide(1 << shape.fine);
+        return length(p - exact_centre<Wide, N>(shape.centre, shape))
+            - exact<Wide>(shape.radius) / Wide(1 << shape.fine);
     }
 };
 
@@ -274,8 +275,9 @@ struct ConeTrial {
         // Near a tangent plane: through it, and a half of the time close to a generator too.
         const double growth = (rb - ra) / height;
         const Double3 generator = unit(axis + side * growth), sideways = cross(axis, side);
-        const Double3 d = random.chance(0.5) ? unit(generator + sideways * random.in(-1e-2, 1e-2) + side * random.in(-1e-3, 1e-3))
-                                             : unit(sideways + generator * random.in(-2, 2));
+        const Double3 d = random.chance(0.5)
+            ? unit(generator + sideways * random.in(-1e-2, 1e-2) + side * random.in(-1e-3, 1e-3))
+            : unit(sideways + generator * random.in(-2, 2));
         return ray_along<N>(random, centre + side * (r * random.in(0.999, 1.001)), random.chance(0.5) ? d : d * -1);
     }
     template <class R, class M>

@@ -134,8 +134,8 @@ private:
     void print_object() const
     {
         const qray::scene::Object& o = trial.bench.from.objects[0];
-        std::printf("  a %.17g %.17g %.17g b %.17g %.17g %.17g ra %.17g rb %.17g", o.a.x, o.a.y, o.a.z, o.b.x, o.b.y, o.b.z,
-                    o.ra, o.rb);
+        std::printf("  a %.17g %.17g %.17g b %.17g %.17g %.17g ra %.17g rb %.17g", o.a.x, o.a.y, o.a.z, o.b.x, o.b.y,
+                    o.b.z, o.ra, o.rb);
         for (uint32_t i = 0; i < o.count; i++) {
             const Double3& v = trial.bench.from.vertices[i];
             std::printf(", %.17g %.17g %.17g", v.x, v.y, v.z);
@@ -187,17 +187,21 @@ private:
     {
         const bool above = qray::dot<N>(s.normal, d) > typename N::Cosine{};
         const auto n_d = N::unit(qray::dot<N>(s.normal, d));
-        return tally.rebounds % 2 == 0 ? qray::going_on<N, Trial::effects>(s, kind, trial.shape.tag, d, above, above ? n_d : -n_d)
-                                       : qray::leaving<N, Trial::effects>(s, kind, trial.shape.tag, d, above);
+        return tally.rebounds % 2 == 0
+            ? qray::going_on<N, Trial::effects>(s, kind, trial.shape.tag, d, above, above ? n_d : -n_d)
+            : qray::leaving<N, Trial::effects>(s, kind, trial.shape.tag, d, above);
     }
 
     void rebound(Random& random, const qray::Ray<N>& ray, const qray::Hit<N>& from)
     {
         using namespace qray::scene;
         const qray::Surface<N> s = surface(ray, from);
-        const Double3 g = unit({exact<double>(s.geometric.x), exact<double>(s.geometric.y), exact<double>(s.geometric.z)});
+        const Double3 g =
+            unit({exact<double>(s.geometric.x), exact<double>(s.geometric.y), exact<double>(s.geometric.z)});
         const Double3 d = spawned_direction(random, g);
-        qray::Ray<N> next = spawn(s, from.kind, random.chance(0.125) ? mirrored<N>(ray.direction, s.normal, s.n_d) : made_direction<N>(random, d));
+        qray::Ray<N> next =
+            spawn(s, from.kind,
+                  random.chance(0.125) ? mirrored<N>(ray.direction, s.normal, s.n_d) : made_direction<N>(random, d));
         tally.rebounds++;
         const double at = static_cast<double>(trial.outside(exact3<Wide>(s.point))) / one_ulp;
         const double start = static_cast<double>(trial.outside(exact3<Wide>(next.origin))) / one_ulp;

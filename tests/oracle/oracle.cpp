@@ -689,8 +689,8 @@ bool holds(const Scene& s, int index, Vec p, Real scale) {
     return magnitude(z) <= off;
 }
 
-// The product of `transmit` over all crossings between the ray's start and t_end. Where a lamp stands there, of a surface
-// that holds it that crossing is taken out, not filtered by how near it is.
+// The product of `transmit` over all crossings between the ray's start and t_end. Where a lamp stands there, of a
+// surface that holds it that crossing is taken out, not filtered by how near it is.
 Real light_through(const Scene& s, const Ray& ray, Real t_end, const Vec* lamp = nullptr) {
     Real through = 1, t_max = t_end;
     visit(s, ray, t_max, [&](int i) {
@@ -830,7 +830,8 @@ Vec trace(const Scene& s, const Settings& set, const Ray& ray, int depth, Real w
         Vec l = light.sun ? to : to / distance;
         Real nl = dot(n, l);
         if (!(nl > 0)) continue;
-        Real through = s.shadows ? light_through(s, {q, l, hit.prim}, distance, light.sun ? nullptr : &light.at) : Real(1);
+        Real through =
+            s.shadows ? light_through(s, {q, l, hit.prim}, distance, light.sun ? nullptr : &light.at) : Real(1);
         if (through == 0) continue;
         Vec r = 2 * nl * n - l;
         Real rv = -dot(r, d);
