@@ -743,9 +743,8 @@ TEST(ParserError, Shapes) {
         {VIEW "texture wood 0 0 0 1 @0 0 0", "the axis of a texture is zero"},
         {VIEW "texture @image a.bmp 0 0 0 1 0 0 0 1 0", "'image' and 'globe' are not supported yet"},
         {VIEW "texture @globe a.bmp 0 0 0", "'image' and 'globe' are not supported yet"},
-        {VIEW "texture @tartan 0 0 0 1",
-         "expected a texture (checker stripes gradient rings noise marble wood brick), "
-         "found 'tartan'"},
+        {VIEW "texture @tartan 0 0 0 1", "expected a texture (checker "}, // and all others
+        {VIEW "texture @tartan 0 0 0 1", "), found 'tartan'"},
         {VIEW "texture @marbel 0 0 0 1",
          "unknown texture 'marbel'; did you mean 'marble'? expected one of checker stripes"},
         {VIEW "texture@", "the file ends where a texture"},
