@@ -26,7 +26,8 @@ FLOAT_IS_CLOSER = {
     "seethrough_shadows": "1 of 76800 bytes is one off",
 }
 
-OPTIONS = [["-d", "1"], ["-d", "12", "--cutoff", "0"], ["--cutoff", "0.1"], ["-r", "4"], ["-r", "9"], ["-a", "2"], ["-a", "4,0.02"]]
+OPTIONS = [["-d", "1"], ["-d", "12", "--cutoff", "0"], ["--cutoff", "0.1"], ["-r", "4"], ["-r", "9"], ["-a", "2"],
+           ["-a", "4,0.02"]]
 OPTION_SCENES = ["scenes/showcase.nff", "scenes/glass.nff", "tests/scenes/touching.nff"]
 
 results = []
@@ -82,7 +83,8 @@ def compare(a, b):
 
 def draw(program, scene, out, options):
     extra = ["-q"] if program == QRAY else []
-    result = subprocess.run([program, *extra, *options, scene, "-o", out], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    result = subprocess.run([program, *extra, *options, scene, "-o", out], stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT, text=True)
     if result.returncode != 0:
         raise ValueError(f"{os.path.basename(program)} {' '.join(options)} {scene}: {result.stdout.strip()}")
 
@@ -147,7 +149,7 @@ def build(path, *command):
 def main():
     build(QRAY, "make", "build/qray")
     build(ORACLE, "g++", "-std=gnu++20", "-O2", "-pthread", "tests/oracle/oracle.cpp", "-o", ORACLE)
-    scenes = sorted(glob.glob(os.path.join(ROOT, "scenes", "*.nff")) + glob.glob(os.path.join(ROOT, "tests", "scenes", "*.nff")))
+    scenes = sorted(path for folder in ("scenes", "tests/scenes") for path in glob.glob(f"{ROOT}/{folder}/*.nff"))
     check("there are scenes to compare", "" if len(scenes) >= 20 else f"only {len(scenes)}")
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
         jobs = [pool.submit(test_scene, folder, scene) for scene in scenes]
@@ -156,7 +158,8 @@ def main():
         for job in others:
             job.result()
     close = sum(d is not None and d >= Q32_MOST for d in decibels)
-    check(f"q32 reaches {Q32_MOST} dB on three scenes in four", "" if 4 * close >= 3 * len(decibels) else f"on {close} of {len(decibels)}")
+    check(f"q32 reaches {Q32_MOST} dB on three scenes in four",
+          "" if 4 * close >= 3 * len(decibels) else f"on {close} of {len(decibels)}")
     failed = results.count(False)
     print(f"{len(results) - failed} passed, {failed} failed")
     return failed != 0

@@ -35,7 +35,8 @@ def rows(text):
     """[{chosen, built, options of qray, of make, and the numbers of the row}, ...]"""
     out = []
     for line in text.splitlines():
-        found = re.match(r"([* ]) (\w+) +(adaptive )?([\d.,]+) +(\d) ([~ ]) +(\d+) +([\d.]+ +)?([\d.]+) +(\S+) +(\S+) +(\S+)$", line)
+        found = re.match(r"([* ]) (\w+) +(adaptive )?([\d.,]+) +(\d) ([~ ]) +(\d+) +([\d.]+ +)?([\d.]+)"
+                         r" +(\S+) +(\S+) +(\S+)$", line)
         if found:
             chosen, number, adaptive, samples, depth, rough, instructions, seconds, decibels, *sizes = found.groups()
             way = ("-a", "ADAPTIVE") if adaptive else ("-r", "SAMPLES")

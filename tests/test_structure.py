@@ -16,7 +16,8 @@ import tempfile
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 HEADERS = os.path.join(ROOT, "include", "qray")
 WARNINGS = ["-Wall", "-Wextra", "-Wconversion", "-Wsign-conversion", "-Wshadow", "-Wdouble-promotion", "-Werror"]
-FLAGS = ["-std=c++20", *WARNINGS, "-ffp-contract=off", "-fno-exceptions", "-fno-rtti", "-I" + os.path.join(ROOT, "include")]
+FLAGS = ["-std=c++20", *WARNINGS, "-ffp-contract=off", "-fno-exceptions", "-fno-rtti",
+         "-I" + os.path.join(ROOT, "include")]
 COMPILERS = ["g++", "clang++"]
 
 # A folder is a floor: no header includes one of a higher floor, nor of another folder of its own.
@@ -50,7 +51,7 @@ def check(name, faults):
 
 def names():
     """Of all headers: folder/name."""
-    return sorted(os.path.relpath(path, HEADERS)[:-4] for path in glob.glob(os.path.join(HEADERS, "**", "*.hpp"), recursive=True))
+    return sorted(os.path.relpath(path, HEADERS)[:-4] for path in glob.glob(f"{HEADERS}/**/*.hpp", recursive=True))
 
 
 def may_include(name, other):
@@ -140,7 +141,8 @@ def test_words():
                  "extern", "alloca", "__builtin_alloca", "malloc", "const_cast", "goto", "std"]:
         check(f"no header says `{word}`", lines_with(rf"\b{word}\b"))
     for word in ["reinterpret_cast", "union"]:
-        check(f"no header says `{word}` but those of vector registers", lines_with(rf"\b{word}\b", set(names()) - LANED))
+        check(f"no header says `{word}` but those of vector registers",
+              lines_with(rf"\b{word}\b", set(names()) - LANED))
     # A function (it has an argument list) or a constant; static_assert and static_cast are words of their own.
     faults = []
     for name in names():
@@ -167,13 +169,14 @@ using Sink = bool (*)(void*, uint32_t, const uint8_t*, uint32_t);
 bool draw(const qray::Scene<N, effects>& scene, uint8_t* buffer, uint32_t rows)
 {{
     uint32_t sum = 0;
-    const bool done = qray::render<qray::Rgb888>(scene, buffer, rows, [&sum](uint32_t, uint32_t, const uint8_t* bytes, uint32_t size) {{
+    const auto sink = [&sum](uint32_t, uint32_t, const uint8_t* bytes, uint32_t size) {{
         for (uint32_t i = 0; i < size; i++)
             sum += bytes[i];
         return sum != 0;
-    }});
-    return qray::render<qray::Rgb565Little>(scene, buffer, rows, [](uint32_t, uint32_t, const uint8_t*, uint32_t) {{ return true; }})
-        && done;
+    }};
+    const auto go_on = [](uint32_t, uint32_t, const uint8_t*, uint32_t) {{ return true; }};
+    const bool done = qray::render<qray::Rgb888>(scene, buffer, rows, sink);
+    return qray::render<qray::Rgb565Little>(scene, buffer, rows, go_on) && done;
 }}
 """)
     return path
@@ -245,7 +248,8 @@ def test_integers_alone(folder):
     for system in ["q16", "q32"]:
         path = kernel(folder, system, "[] { auto e = qray::everything(64); e.tree = false; return e; }()")
         result = run("g++", *FLAGS, "-O1", "-mgeneral-regs-only", "-c", path, "-o", os.path.join(folder, "integers.o"))
-        check(f"a render in {system} without a tree has no floating point", [] if result.returncode == 0 else [result.stdout[:2000]])
+        check(f"a render in {system} without a tree has no floating point",
+              [] if result.returncode == 0 else [result.stdout[:2000]])
 
 
 def test_the_test(folder):

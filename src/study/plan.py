@@ -237,7 +237,8 @@ class Plan:
                 self.refused.setdefault(s.number, "there was no time to build it")
         if self.question.mhz and self.question.board in cycles.TIMINGS:
             calls = {s.number for s in self.frontier(SURE)}
-            for s, run in self.perform([(s, self.run(s, size="8x6", profile=True)) for s in first if s.number in calls]):
+            todo = [(s, self.run(s, size="8x6", profile=True)) for s in first if s.number in calls]
+            for s, run in self.perform(todo):
                 if "refused" not in run.result:
                     self.cycles[s.number] = run.result["cycles"] / run.result["instructions"]
             self.cycles = {n: self.cycles.get(n, max(self.cycles.values(), default=1)) for n, *_ in first}
