@@ -21,46 +21,34 @@ BOARD_SCENES = {"scenes/floor.nff": "32x24", "scenes/showcase.nff": "16x12"}
 
 
 def boards():
+    plan = {(scene, board, number): runs.Run(board, scene, number, size) for scene, size in BOARD_SCENES.items()
+            for board in runs.BOARDS for number in runs.numbers()}
+    runs.perform(list(plan.values()))
+    figures = ["flash", "RAM", "stack", "instructions/pixel", "instructions/ray"]
     out = []
-    plan = [(scene, board, number, runs.Run(board, scene, number, size))
-            for scene, size in BOARD_SCENES.items() for board in runs.BOARDS for number in runs.numbers()]
-    runs.perform([run for *_, run in plan])
     for scene, size in BOARD_SCENES.items():
-        rows = []
-        for at, board, number, run in plan:
-            if at != scene:
-                continue
-            r = run.result
-            if "refused" in r:
-                rows.append([runs.BOARDS[board], number] + ["–"] * 5)
-                continue
-            rows.append([runs.BOARDS[board], number, count(r["flash"]), count(r["ram"]), count(r["stack"]),
-                         count(r["instructions/pixel"]), count(r["instructions/ray"])])
-        head = ["board", "number", "flash", "RAM", "stack", "instructions/pixel", "instructions/ray"]
-        out.append(f"`{scene}`, {size.replace('x', ' × ')} pixels, one sample:\n\n{table(head, rows)}")
+        rows = [[runs.BOARDS[board], number]
+                + ["–" if "refused" in run.result else count(run.result[f.lower()]) for f in figures]
+                for (at, board, number), run in plan.items() if at == scene]
+        out.append(f"`{scene}`, {size.replace('x', ' × ')} pixels, one sample:\n\n"
+                   + table(["board", "number", *figures], rows))
     return "\n".join(out)
 
 
 def effects():
     steps = ladder.write(f"{FOLDER}/ladder")
-    boards_shown = ["microbit", "mps2_an385"]
+    columns = [(board, what) for board in ("microbit", "mps2_an385") for what in ("flash", "stack", "instructions/pixel")]
     plan = {(path, board): runs.Run(board, path, "q32", "32x24", **options)
-            for _, path, options in steps for board in boards_shown}
+            for _, path, options in steps for board in dict(columns)}
     runs.perform(list(plan.values()))
-    rows, before = [], None
-    for name, path, options in steps:
-        now = [plan[path, board].result[key] for board in boards_shown
-               for key in ("flash", "stack", "instructions/pixel")]
-        if before is None:
-            rows.append([name] + [count(v) for v in now])
-        else:
-            rows.append(["+ " + name] + [f"{round(b - a):+,}".replace(",", " ").replace("-", "−")
-                                         for a, b in zip(before, now)])
-        before = now
-    rows.append(["all"] + [count(v) for v in before])
-    head = ["effect"] + [f"{runs.BOARDS[b]} {what}" for b in boards_shown
-                         for what in ("flash", "stack", "instructions/pixel")]
-    return (f"{ladder.TITLE} q32, 32 × 24 pixels:\n\n" + table(head, rows))
+    found = [[plan[path, board].result[what] for board, what in columns] for _, path, _ in steps]
+    rows = [[steps[0][0], *map(count, found[0])]]
+    for (name, *_), before, now in zip(steps[1:], found, found[1:]):
+        rows.append(["+ " + name] + [f"{round(b - a):+,}".replace(",", " ").replace("-", "−")
+                                     for a, b in zip(before, now)])
+    rows.append(["all", *map(count, found[-1])])
+    head = ["effect"] + [f"{runs.BOARDS[board]} {what}" for board, what in columns]
+    return f"{ladder.TITLE} q32, 32 × 24 pixels:\n\n" + table(head, rows)
 
 
 # What the pages may hold, and the words that its text must hold to be whole.
