@@ -186,13 +186,10 @@ class Plan:
         like = (setting, kind_of(setting), (setting.number, "1", False))
         return next((self.per_ray[k] for k in like if k in self.per_ray), GUESS)
 
-    def rays_at(self, setting, size):
-        return pictures.draw(self.question.scene, size, setting)["rays"]
-
     def learn(self, setting, run):
         """From a run: what a ray takes."""
         if "refused" not in run.result:
-            self.per_ray[setting] = run.result["instructions"] / self.rays_at(setting, run.size)
+            self.per_ray[setting] = run.result["instructions"] / run.result["rays"]
             self.per_ray.setdefault(kind_of(setting), self.per_ray[setting])
 
     def is_measured(self, setting):
@@ -327,7 +324,7 @@ def smaller(plan, setting):
         width, height = (int(plan.pixels.head[k] * math.sqrt(share)) for k in ("width", "height"))
         if width * height == 0:
             return None
-        rays = plan.rays_at(setting, f"{width}x{height}")
+        rays = pictures.draw(plan.question.scene, f"{width}x{height}", setting)["rays"]
         if rays * plan.seconds(setting) < 0.98 * plan.question.seconds * plan.pixels.rays(setting):
             return f"{width}x{height}"
         share *= 0.97

@@ -37,17 +37,18 @@ def boards():
 
 def effects():
     steps = ladder.write(f"{FOLDER}/ladder")
-    columns = [(board, what) for board in ("microbit", "mps2_an385") for what in ("flash", "stack", "instructions/pixel")]
+    figures = ["flash", "stack", "instructions/pixel"]
+    columns = [(board, figure) for board in ("microbit", "mps2_an385") for figure in figures]
     plan = {(path, board): runs.Run(board, path, "q32", "32x24", **options)
             for _, path, options in steps for board in dict(columns)}
     runs.perform(list(plan.values()))
-    found = [[plan[path, board].result[what] for board, what in columns] for _, path, _ in steps]
+    found = [[plan[path, board].result[figure] for board, figure in columns] for _, path, _ in steps]
     rows = [[steps[0][0], *map(count, found[0])]]
     for (name, *_), before, now in zip(steps[1:], found, found[1:]):
         rows.append(["+ " + name] + [f"{round(b - a):+,}".replace(",", " ").replace("-", "−")
                                      for a, b in zip(before, now)])
     rows.append(["all", *map(count, found[-1])])
-    head = ["effect"] + [f"{runs.BOARDS[board]} {what}" for board, what in columns]
+    head = ["effect"] + [f"{runs.BOARDS[board]} {figure}" for board, figure in columns]
     return f"{ladder.TITLE} q32, 32 × 24 pixels:\n\n" + table(head, rows)
 
 

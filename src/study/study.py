@@ -132,7 +132,7 @@ class Study:
             near = self.profiles.get((scene, board, setting.number)) or self.profiles[first, board, setting.number]
             # What a pixel of the larger picture takes: adaptive sampling needs more in a small one.
             pixels = math.prod(map(int, self.error_size.split("x")))
-            per_ray = r["instructions"] / pictures.draw(scene, run.size, setting)["rays"]
+            per_ray = r["instructions"] / r["rays"]
             large = per_ray * e["rays"] / pixels
             per = near["cycles"] / near["instructions"]
             self.rows.append({
