@@ -12,10 +12,10 @@ struct Sum {
     uint32_t checks = 0, passed = 0, failed = 0;
 };
 
-void say_count(const char* name, uint64_t count)
+void say_count(const char* name, uint32_t count)
 {
     board::say(name);
-    board::say_decimal(count);
+    board::say_hex(count);
     board::say("\n");
 }
 

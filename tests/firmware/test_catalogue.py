@@ -71,8 +71,9 @@ def run_catalogue(board, number, name="catalogue", **options):
                                   f"enable=on,target=native,arg={elf}.ppm", "-kernel", elf],
                           capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL)
     said = done.stdout + done.stderr
-    values = {k: int(v) for k, v in re.findall(r"^(\w+): (\d+)$", said, re.M)}
-    return done.returncode, values, re.findall(r"^(\w+) does not hold: (\S+)$", said, re.M)
+    values = {k: int(v, 16) for k, v in re.findall(r"^(\w+): (0x\w+)$", said, re.M)}
+    fails = re.findall(r"^(\w+) does not hold: (\S+)(0x\w+)$", said, re.M)
+    return done.returncode, values, [(name, f"{file}{int(line, 16)}") for name, file, line in fails]
 
 
 class Catalogue(unittest.TestCase):

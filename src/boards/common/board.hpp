@@ -18,9 +18,8 @@ bool write_picture(const uint8_t* bytes, uint32_t size);
 // Ends the picture; in a measured image, reports stack and instructions as `name: value` lines.
 bool close_picture();
 
-// Messages for people; numbers without a division, so that no helper of the compiler is linked for them.
+// Messages; numbers in hexadecimal, without a division, so that no helper of the compiler is linked for them.
 void say(const char* text);
-void say_decimal(uint64_t value);
 void say_hex(uint32_t value);
 
 // Ends the run: with this exit status under semihosting, else by sleeping.

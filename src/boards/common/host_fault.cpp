@@ -14,7 +14,7 @@ extern uint32_t ram_begin[], stack_top[]; // sections.ld
     case 4: board::say("memory fault"); break;
     case 5: board::say("bus fault"); break;
     case 6: board::say("usage fault"); break;
-    default: board::say("exception "); board::say_decimal(exception);
+    default: board::say("exception "); board::say_hex(exception);
     }
     // The core saved r0-r3, r12, lr, pc and xpsr, unless the stack had left the RAM.
     if (frame >= ram_begin && frame + 8 <= stack_top) {

@@ -116,9 +116,11 @@ bool close_picture()
         return false;
     }
     say("stack: ");
-    say_decimal(address(stack_top) - address(lowest));
+    say_hex(address(stack_top) - address(lowest));
     say("\nticks: ");
-    say_decimal(spent);
+    say_hex(static_cast<uint32_t>(spent >> 32));
+    say(" ");
+    say_hex(static_cast<uint32_t>(spent));
     say("\n");
     return true;
 }

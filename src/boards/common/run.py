@@ -85,7 +85,8 @@ def run_semihosting(command, image, picture, seconds):
     if status != 0:
         sys.stderr.write(said)
         fail(f"{image}: exit status {status}")
-    return dict(re.findall(r"^(\w+): (\d+)$", said, re.M))
+    found = re.findall(r"^(\w+): 0x([0-9a-f]+)(?: 0x([0-9a-f]+))?$", said, re.M)
+    return {name: int(high + low, 16) for name, high, low in found}
 
 
 def run_uart(command, image, picture, seconds):
@@ -143,8 +144,8 @@ def main():
         if there != whole:
             fail(f"{args.image}: the picture is not whole: {there} bytes")
         if "stack" in values:
-            report["stack"] = int(values["stack"])
-            if report["stack"] > bound + 112 * int(int(values["ticks"]) >= 1 << 24):
+            report["stack"] = values["stack"]
+            if values["stack"] > bound + 112 * (values["ticks"] >= 1 << 24):
                 fail(f"{args.image}: {report['stack']} bytes of stack, above the bound of {bound}")
     report["stack_bound"] = bound
     report["flash_total"], report["ram_total"] = sizes["flash_total"], sizes["ram_total"]
@@ -153,7 +154,7 @@ def main():
         if args.rays:
             report["rays"] = args.rays
         if "ticks" in values:
-            instructions = int(values["ticks"]) * args.tick
+            instructions = values["ticks"] * args.tick
             report["instructions"] = round(instructions)
             report["instructions/pixel"] = f"{instructions / pixels:.1f}"
             if args.rays:
