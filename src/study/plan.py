@@ -85,7 +85,7 @@ class Question:
 class Pixels:
     """What the desktop finds: {setting: what measure.cpp says of each comb of pixels}."""
 
-    def __init__(self, question, settings):
+    def __init__(self, question):
         own = (f"src/study/{name}" for name in ("measure.cpp", "scattered.hpp"))
         key = runs.hash_of(runs.tree_hash("include", "src/scene", *own), runs.text_of("build/obj/flags"),
                            runs.text_of(question.scene), question.size)
@@ -147,7 +147,7 @@ class Plan:
         self.refused = {n: why for n in runs.numbers() if (why := question.compile(n))}
         self.settings = [Setting(n, s, d, question.cutoff) for n in runs.numbers() if n not in self.refused
                          for s in SAMPLES for d in DEPTHS]
-        self.pixels = Pixels(question, self.settings)
+        self.pixels = Pixels(question)
         # Double is never cheaper than float.
         pairs = [(s, s._replace(number="double")) for s in self.settings
                  if s.number == "float" and s.samples in "14" and s.depth == 5]

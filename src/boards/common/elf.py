@@ -273,17 +273,12 @@ class Program:
                     switches.append((address, after))
                 elif i.kind == BRANCH:
                     todo.append((i.target, after))
-                if i.kind == JUMP:
-                    address = i.target
-                elif i.kind in (RETURN, SWITCH):
+                if i.kind in (RETURN, SWITCH):
                     break
-                elif i.name == "bl" or i.kind == CALL:
-                    if i.next is not None and self.owner(i.next) != self.owner(address):
-                        break  # a call that does not return, at the end of its function
-                    address = i.next
-                else:
-                    address = i.next
-                depth = after
+                is_call = i.name == "bl" or i.kind == CALL
+                if is_call and i.next is not None and self.owner(i.next) != self.owner(address):
+                    break  # a call that does not return, at the end of its function
+                address, depth = i.target if i.kind == JUMP else i.next, after
             if not todo and switches:
                 # All ways out of a switch leave at its depth: take the code of its function that nothing else
                 # has reached, from the top.
