@@ -25,12 +25,8 @@ template <class N>
 void set_ball(BallNode& balls, uint32_t i, const SplitBox* box)
 {
     const double length = static_cast<double>(BallRay<N>::length), unit = static_cast<double>(BallRay<N>::unit);
-    Vec3d centre, half;
-    if (box != nullptr) {
-        const Vec3d low = {box->low[0], box->low[1], box->low[2]}, high{box->high[0], box->high[1], box->high[2]};
-        centre = (low + high) * 0.5;
-        half = (high - low) * 0.5;
-    }
+    const Vec3d low = box != nullptr ? value(box->lows()) : Vec3d{}, high = box != nullptr ? value(box->highs()) : Vec3d{};
+    const Vec3d centre = (low + high) * 0.5, half = (high - low) * 0.5;
     const bool fills = box != nullptr && ShapeId{box->first}.kind() == Kind::sphere;
     // Wider by what coordinates below 2^7 may be off in 24 bits, here and in a ray's origin: the box's slack is.
     const double r = fills ? half.x : scene::length(half), reach = r * length * unit;
@@ -89,7 +85,11 @@ private:
             put(filled, a, b);
         }
         shape.blocks = s.outlines.count - shape.block;
-        shape.edges = shape.blocks > 1 ? (1u << bound_lanes) - 1 : ((1u << count) - 1) << begin;
+        shape.edges = (1u << bound_lanes) - 1;
+        if (shape.blocks > 1)
+            filled = bound_lanes; // and none but its own
+        else
+            shape.edges = ((1u << count) - 1) << begin;
     }
     void put(uint32_t lane, const Point<N>& a, const Point<N>& b)
     {
