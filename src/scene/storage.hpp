@@ -83,7 +83,7 @@ struct Storage {
             cut(normals, d.vertex_count);
             cut(tree_shapes, all);
             if constexpr (has_outlines<N>) // of the three edges of a triangle, in a patch, two are its own
-                cut(outlines, 2 * d.vertex_count / bound_lanes + all);
+                cut(outlines, 3 * d.vertex_count / bound_lanes + 2 * all);
             cut(split_shapes, all);
             cut(split_nodes, 2 * all);
             // All but those of leaves are full, and with two leaves each there are bound_lanes of these below one.

@@ -78,24 +78,40 @@ private:
             const Point<N>& b = s.vertices.data[number((i + 1) % count)];
             if (filled == bound_lanes) {
                 filled = 0;
-                s.outlines.push();
-                for (uint32_t lane = 0; lane < bound_lanes; lane++)
-                    put(lane, a, a); // an edge without length crosses nothing
+                push(a); // an edge without length crosses nothing
             }
-            put(filled, a, b);
+            put(s.outlines.count - 1, filled, a, b);
         }
         shape.blocks = s.outlines.count - shape.block;
         shape.edges = (1u << bound_lanes) - 1;
-        if (shape.blocks > 1)
-            filled = bound_lanes; // and none but its own
-        else
+        if (shape.blocks == 1) {
             shape.edges = ((1u << count) - 1) << begin;
+            return;
+        }
+        filled = bound_lanes; // and none but its own
+        for (uint32_t i = 0; i < shape.blocks; i++) {
+            if (i % bound_lanes == 0)
+                push(s.vertices.data[number(0)]);
+            Point<N> low = s.vertices.data[number(i * bound_lanes)], high = low;
+            for (uint32_t j = 1; j <= bound_lanes; j++) {
+                const Point<N>& p = s.vertices.data[number((i * bound_lanes + j) % count)];
+                low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+                high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+            }
+            put(s.outlines.count - 1, i % bound_lanes, low, high);
+        }
     }
-    void put(uint32_t lane, const Point<N>& a, const Point<N>& b)
+    void push(const Point<N>& p)
+    {
+        s.outlines.push();
+        for (uint32_t lane = 0; lane < bound_lanes; lane++)
+            put(s.outlines.count - 1, lane, p, p);
+    }
+    void put(uint32_t block, uint32_t lane, const Point<N>& a, const Point<N>& b)
     {
         const Point<N>* const ends[] = {&a, &b};
         for (int end = 0; end < 2; end++) {
-            auto& rows = s.outlines.data[s.outlines.count - 1].ends[end];
+            auto& rows = s.outlines.data[block].ends[end];
             rows[0][lane] = coordinate(ends[end]->x);
             rows[1][lane] = coordinate(ends[end]->y);
             rows[2][lane] = coordinate(ends[end]->z);

@@ -25,7 +25,8 @@ struct OutlineRow<true> {
     using Type = BoundMask;
 };
 
-// x, y, z of where edges begin, then of where they end.
+// x, y, z of where edges begin, then of where they end; or, behind the blocks of an outline that has several, the lowest
+// and the highest of each of these blocks.
 template <class N>
 struct OutlineBlock {
     using Row = typename OutlineRow<N::is_fixed>::Type;
@@ -69,6 +70,25 @@ public:
             const BoundMask right_a = ax > none, right_b = bx > none;
             return mask_bits(crosses & ((right_a & right_b) | ((right_a | right_b) & left)));
         }
+    }
+
+    // In which blocks may edges cross it, given these blocks' extents? None does where all sheared y have the same sign, or
+    // all x are below 0; each is off by less than 1024 ulp here and there, in float by 2^-13.
+    QRAY_INLINE uint32_t meets(const OutlineBlock<N>& extents) const
+    {
+        constexpr float apart = N::is_fixed ? 2048 : 0x1p-12f;
+        Bounds low_x, high_x, low_y, high_y;
+        const auto seen = [&](size_t row, const Row& o, const Bounds& d, const Bounds& low_z, const Bounds& high_z,
+                              Bounds& low, Bounds& high) __attribute__((always_inline)) {
+            const Bounds a = number(extents.ends[0][row] - o) * dz, b = number(extents.ends[1][row] - o) * dz;
+            const Bounds e = low_z * d, f = high_z * d;
+            low = lower(a, b) - higher(e, f);
+            high = higher(a, b) - lower(e, f);
+        };
+        const Bounds low_z = number(extents.ends[0][z_row] - oz), high_z = number(extents.ends[1][z_row] - oz);
+        seen(x_row, ox, dx, low_z, high_z, low_x, high_x);
+        seen(y_row, oy, dy, low_z, high_z, low_y, high_y);
+        return mask_bits((lower(high_x, high_y) >= -apart) & (low_y <= apart));
     }
 
 private:

@@ -196,18 +196,33 @@ struct Outlines<N, true> {
     {
         if (shape.blocks == 0)
             return false;
-        if (shape.block != held) {
+        if (shape.blocks == 1 && shape.block != held) {
             held = shape.block;
             crossed = ray.crossed(tree.outlines[held], unsure);
         }
         uint32_t edges = crossed & shape.edges, doubt = unsure & shape.edges;
-        for (uint32_t i = 1; i < shape.blocks; i++) {
-            uint32_t more = 0;
-            edges ^= ray.crossed(tree.outlines[shape.block + i], more);
-            doubt |= more;
-        }
+        if (shape.blocks > 1)
+            edges = all_crossed(tree.outlines + shape.block, shape.blocks, doubt);
         open = doubt != 0;
         return !open && !__builtin_parity(edges);
+    }
+
+private:
+    // As many bits, but for pairs of them, as edges of all blocks cross.
+    QRAY_NOINLINE uint32_t all_crossed(const OutlineBlock<N>* blocks, uint32_t count, uint32_t& doubt) const
+    {
+        uint32_t edges = 0;
+        doubt = 0;
+        for (uint32_t i = 0; i < count; i += bound_lanes) {
+            uint32_t near = ray.meets(blocks[count + i / bound_lanes]);
+            near &= count - i < bound_lanes ? (1u << (count - i)) - 1 : ~0u;
+            for (; near != 0; near &= near - 1) {
+                uint32_t unsure_edges = 0;
+                edges ^= ray.crossed(blocks[i + lowest_bit(near)], unsure_edges);
+                doubt |= unsure_edges;
+            }
+        }
+        return edges;
     }
 };
 
