@@ -10,7 +10,7 @@ namespace qray::test {
 // A description, or a number system's storage, with its room.
 template <class T>
 class Roomy {
-    static constexpr size_t bytes = size_t{512} << 20;
+    static constexpr size_t bytes = size_t{1} << 30;
     void* const memory = std::calloc(1, bytes + scene::Layout::alignment);
 
 public:

@@ -112,6 +112,100 @@ TYPED_TEST(TreeTest, HitsAreTheSameAmongTinyObjects)
     }
 }
 
+// What a box test may get wrong, by its own boxes: those that it holds rays against, in the moved and scaled scene.
+class HostileRays {
+public:
+    HostileRays(uint64_t seed, const scene::Array<scene::SplitBox>& from) : random(seed), boxes(from) {}
+
+    // An origin and a direction.
+    std::pair<Vec3, Vec3> next()
+    {
+        const Vec3 at = place(), anywhere = random.point(31);
+        Vec3 d = at - anywhere;
+        switch (random.bits() % 8) {
+        case 0: return {anywhere, random.direction()};
+        case 1: return {anywhere, d};                    // grazes a box
+        case 2: return {at, random.direction()};         // starts on its face, or inside
+        case 3: return {at, place() - at};               // from one to another
+        case 4: return {beyond(at, axis()), axis()};     // along an axis, in faces
+        case 5: return {at - axis() * random.uniform(0, 60), axis()};
+        case 6: (&d.x)[random.bits() % 3] = 0; return {at - d, d};
+        default: // almost without a component
+            (&d.x)[random.bits() % 3] = std::ldexp(random.uniform(-1, 1), -static_cast<int>(random.bits() % 40));
+            return {at - d, d};
+        }
+    }
+
+private:
+    Random random;
+    const scene::Array<scene::SplitBox>& boxes;
+
+    double within(float low, float high)
+    {
+        switch (random.bits() % 4) {
+        case 0: return double{low};
+        case 1: return double{high};
+        case 2: return random.uniform(double{low}, double{high});
+        default: return (random.bits() % 2 ? double{low} : double{high}) + random.uniform(-2e-4, 2e-4);
+        }
+    }
+    // On a face, an edge or a corner of a box, or inside.
+    Vec3 place()
+    {
+        const scene::SplitBox& b = boxes.data[random.bits() % boxes.count];
+        return {within(b.low[0], b.high[0]), within(b.low[1], b.high[1]), within(b.low[2], b.high[2])};
+    }
+    Vec3 axis()
+    {
+        Vec3 d{};
+        (&d.x)[random.bits() % 3] = random.bits() % 2 ? 1 : -1;
+        return d;
+    }
+    static Vec3 beyond(const Vec3& at, const Vec3& d)
+    {
+        return {d.x != 0 ? -31 * d.x : at.x, d.y != 0 ? -31 * d.y : at.y, d.z != 0 ? -31 * d.z : at.z};
+    }
+};
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr int hostile_rays = 3000;
+#else
+constexpr int hostile_rays = 500000;
+#endif
+
+TYPED_TEST(TreeTest, HostileRaysHitTheSame)
+{
+    using N = TypeParam;
+    Random random(2001);
+    std::string text = "v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3\n" + objects(random, 30, 8, 3)
+        + objects(random, 20, 8, 0.5) + "p 20";
+    for (int i = 0; i < 20; i++) // a star
+        text += numbers({(i % 2 ? 3 : 6) * cos(i * M_PI / 10), (i % 2 ? 3 : 6) * sin(i * M_PI / 10), 1});
+    for (int i = 0; i < 9; i++) // and boxes that touch
+        text += "\np 4" + numbers({-8.0 + i, -8, 2, -7.0 + i, -8, 2, -7.0 + i, -7, 2, -8.0 + i, -7, 2});
+    ASSERT_TRUE(loaded<N>(text + "\n"));
+    const auto with = storage<N>().template view<shapes(true)>();
+    const auto without = storage<N>().template view<shapes(false)>();
+    ASSERT_EQ(with.tree.value.ball_nodes, 0u);
+    HostileRays rays(2002, storage<N>().split_shapes);
+    int hits = 0;
+    for (int i = 0; i < hostile_rays; i++) {
+        const auto [from, d] = rays.next();
+        if (length(d) < 1e-9)
+            continue;
+        const auto inside = [](double v) { return std::clamp(v, -31.0, 31.0); };
+        const auto ray = make<N>::ray({inside(from.x), inside(from.y), inside(from.z)}, d);
+        Hit<N> a{}, b{};
+        const bool hit = nearest(with, ray, a);
+        const bool same = hit == nearest(without, ray, b) && (!hit || (value(a.t) == value(b.t) && a.tag == b.tag));
+        const auto distance = hit && i % 2 ? a.t : make<N>::length(random.uniform(0, 60));
+        const bool as_dark = light_blocked(with, ray, distance) == light_blocked(without, ray, distance);
+        hits += hit;
+        ASSERT_TRUE(same && as_dark) << "ray " << i << numbers({from.x, from.y, from.z, d.x, d.y, d.z});
+    }
+    EXPECT_GT(hits, hostile_rays / 4);
+}
+
 TYPED_TEST(TreeTest, CoincidentObjectsAreToldApartByTheirPlace)
 {
     using N = TypeParam;

@@ -82,8 +82,8 @@ struct Storage {
             cut(vertices, d.vertex_count);
             cut(normals, d.vertex_count);
             cut(tree_shapes, all);
-            if constexpr (has_outlines<N>) // of the three edges of a triangle, in a patch, two are its own
-                cut(outlines, 3 * d.vertex_count / bound_lanes + 2 * all);
+            if constexpr (has_outlines<N>) // one a triangle; most for its size takes what has one edge more than a block
+                cut(outlines, shapes[static_cast<int>(Kind::patch)] + d.vertex_count * 8 / (3 * bound_lanes));
             cut(split_shapes, all);
             cut(split_nodes, 2 * all);
             // All but those of leaves are full, and with two leaves each there are bound_lanes of these below one.

@@ -1,6 +1,6 @@
 # Tests of vectors in registers: of each function, and of vectors and shapes as a whole, where this processor has them;
 # with sanitizers, hostile scenes too.
-LANE_TESTS := $(addprefix build/lanes/,test_lanes test_vec test_hostile) \
+LANE_TESTS := $(addprefix build/lanes/,test_lanes test_vec test_hostile test_tree) \
     $(addprefix build/sanitized/lanes/,test_lanes test_hard_bounds test_fuzz_corpus)
 TESTS += $(if $(LANES),$(if $(shell grep -m1 -w avx2 /proc/cpuinfo 2> /dev/null),$(LANE_TESTS)))
 
@@ -13,6 +13,7 @@ build/sanitized/lanes/%: build/sanitized/obj/lanes/%.o $(SANITIZED)
 build/obj/lanes/test_lanes.o build/sanitized/obj/lanes/test_lanes.o: tests/lanes/test_lanes.cpp
 build/obj/lanes/test_vec.o: tests/test_vec.cpp
 build/obj/lanes/test_hostile.o: tests/test_hostile.cpp
+build/obj/lanes/test_tree.o: tests/test_tree.cpp
 build/sanitized/obj/lanes/test_hard_bounds.o: tests/test_hard_bounds.cpp
 build/sanitized/obj/lanes/test_fuzz_corpus.o: tests/test_fuzz_corpus.cpp
 build/obj/lanes/%.o: build/obj/flags
