@@ -2,6 +2,7 @@
 #   make study [QUICK=1]        what accuracy costs, here and on the boards: CSV and plots in build/study
 #   make plan SCENE=... BOARD=... [MHZ=... SECONDS=... | ERROR=35dB]   which number system, samples, depth
 #   make report                 measure again what README.md's tables between markers say, and write them
+#   make peers PEERS=folder     the desktop beside POV-Ray and Embree, into README.md here
 STUDY := src/study
 
 # The desktop's part.
@@ -19,4 +20,6 @@ study: build/qray $(MEASURE)
 plan: build/qray $(MEASURE)
 	@$(PYTHON) $(STUDY)/plan.py SCENE='$(SCENE)' BOARD='$(BOARD)' SIZE='$(SIZE)' CUTOFF='$(CUTOFF)' MHZ='$(MHZ)' \
 	    SECONDS='$(if $(findstring command,$(origin SECONDS)),$(SECONDS))' ERROR='$(ERROR)'
-.PHONY: report study plan
+peers: build/qray
+	@$(PYTHON) $(STUDY)/peers.py '$(PEERS)'
+.PHONY: report study plan peers
