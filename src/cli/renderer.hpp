@@ -49,11 +49,11 @@ constexpr Effects balls_effects()
     return e;
 }
 
-// Spheres, cylinders and polygons with glass and mirrors, untextured: the entities of NFF but for patches.
+// Spheres, cylinders, polygons and patches with glass and mirrors, untextured: the entities of NFF.
 constexpr Effects nff_effects()
 {
     Effects e;
-    e.sphere = e.cone = e.polygon = e.light = e.shadow = e.see_through = e.highlight = e.fractional_shine = true;
+    e.sphere = e.cone = e.polygon = e.patch = e.light = e.shadow = e.see_through = e.highlight = e.fractional_shine = true;
     e.mirror = e.transmit = e.tree = true;
     e.depth = scene::Settings::max_depth;
     return e;

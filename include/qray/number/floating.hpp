@@ -166,22 +166,24 @@ struct FloatSystem {
         return e.fraction > 0 ? power_whole(x, e) * power_fraction(x, e.fraction) : power_whole(x, e);
     }
 
-    // sqrt(x) for x in [0, 1], where roots are slow and space is not. Of 1 - m u with u = 2^-24 and m < 2^12 it is
+    // sqrt(x) for x in [1 - 2^-12, 1], where roots are slow and space is not. Of 1 - m u with u = 2^-24 it is
     // 1 - (m/2 + m^2 u/8 + ...) u, and all after m/2 is above 0 and less than 1/7: the next m is m/2, halves up.
     QRAY_INLINE static constexpr float root_near_one(float x)
         requires(sizeof(F) == 4)
     {
         constexpr uint32_t of_one = __builtin_bit_cast(uint32_t, 1.0f);
-        const uint32_t m = of_one - __builtin_bit_cast(uint32_t, x);
-        return m < 4096 ? __builtin_bit_cast(float, of_one - (m + 1) / 2) : sqrt_float(x);
+        return __builtin_bit_cast(float, of_one - (of_one - __builtin_bit_cast(uint32_t, x) + 1) / 2);
     }
     // x^f for x in [0, 1], f in (0, 1): square roots of x, one for each bit of f that matters.
     static constexpr F power_fraction(F x, F f)
     {
         F r = 1;
+        // 12 roots of what is e^-1 or more are above 1 - 2^-12. Not asked of each root: what is known late is guessed wrong.
+        constexpr bool shifts_roots = sizeof(F) == 4 && sizeof(void*) == 8;
+        [[maybe_unused]] const int near_one = x >= F(0.375) ? 12 : 24;
         for (int bit = 0; bit < (sizeof(F) == 4 ? 24 : 53) && f > 0; bit++) {
-            if constexpr (sizeof(F) == 4 && sizeof(void*) == 8)
-                x = root_near_one(x);
+            if constexpr (shifts_roots)
+                x = bit >= near_one ? root_near_one(x) : sqrt(x);
             else
                 x = sqrt(x);
             f = f + f;
