@@ -163,6 +163,8 @@ struct FloatSystem {
     }
     static constexpr F power(F x, Shine e)
     {
+        if (x == 0 && e.whole != 0) // half of all highlights
+            return 0;
         return e.fraction > 0 ? power_whole(x, e) * power_fraction(x, e.fraction) : power_whole(x, e);
     }
 

@@ -132,16 +132,21 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
         return;
     auto diffuse = N::unit(scene.mattes[seen.material].diffuse * n_l);
     [[maybe_unused]] auto highlight = N::zero;
-    if constexpr (E.highlight) {
-        const Highlight<N>& h = scene.highlights[seen.material];
-        if (h.amount > N::zero) {
-            const auto cosine = mirrored_cosine<N>(l, seen.direction, n_l, s.n_d);
-            if constexpr (E.fractional_shine)
-                highlight = N::unit(h.amount * N::power(cosine, h.shine));
-            else
-                highlight = N::unit(h.amount * N::power_whole(cosine, h.shine));
+    // A power takes long: on a desktop only where the light is known to come.
+    [[maybe_unused]] bool late = E.highlight && E.tree && diffuse != N::zero;
+    const auto shine = [&]() QRAY_INLINE_LAMBDA {
+        if constexpr (E.highlight) {
+            const Highlight<N>& h = scene.highlights[seen.material];
+            if (!late && h.amount > N::zero) {
+                const auto cosine = mirrored_cosine<N>(l, seen.direction, n_l, s.n_d);
+                if constexpr (E.fractional_shine)
+                    highlight = N::unit(h.amount * N::power(cosine, h.shine));
+                else
+                    highlight = N::unit(h.amount * N::power_whole(cosine, h.shine));
+            }
         }
-    }
+    };
+    shine();
     if (diffuse == N::zero && highlight == N::zero)
         return;
     if constexpr (E.shadow) {
@@ -152,6 +157,10 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
                 const auto through = light_through(scene, to_light, distance, light...);
                 if (through == N::zero)
                     return;
+                if (late) {
+                    late = false;
+                    shine();
+                }
                 diffuse = N::unit(diffuse * through);
                 highlight = N::unit(highlight * through);
             } else {
@@ -159,6 +168,10 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
                     return;
             }
         }
+    }
+    if (late) {
+        late = false;
+        shine();
     }
     add_scaled<N>(sum.matte, diffuse, colour);
     if constexpr (E.highlight)
