@@ -120,6 +120,22 @@ struct Seen {
     const Direction<N>& direction; // of the ray that sees it
 };
 
+template <class N, Effects E>
+QRAY_INLINE constexpr typename N::Unit highlight_along(const Scene<N, E>& scene, const Seen<N>& seen,
+                                                       const Direction<N>& l, typename N::Unit n_l)
+{
+    auto highlight = N::zero;
+    const Highlight<N>& h = scene.highlights[seen.material];
+    if (h.amount > N::zero) {
+        const auto cosine = mirrored_cosine<N>(l, seen.direction, n_l, seen.surface.n_d);
+        if constexpr (E.fractional_shine)
+            highlight = N::unit(h.amount * N::power(cosine, h.shine));
+        else
+            highlight = N::unit(h.amount * N::power_whole(cosine, h.shine));
+    }
+    return highlight;
+}
+
 // Adds the light that comes along l, unless it is blocked.
 template <class N, Effects E, class Count, class... Light>
 QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen, const Direction<N>& l,
@@ -133,20 +149,14 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
     auto diffuse = N::unit(scene.mattes[seen.material].diffuse * n_l);
     [[maybe_unused]] auto highlight = N::zero;
     // A power takes long: on a desktop only where the light is known to come.
-    [[maybe_unused]] bool late = E.highlight && E.tree && diffuse != N::zero;
-    const auto shine = [&]() QRAY_INLINE_LAMBDA {
-        if constexpr (E.highlight) {
-            const Highlight<N>& h = scene.highlights[seen.material];
-            if (!late && h.amount > N::zero) {
-                const auto cosine = mirrored_cosine<N>(l, seen.direction, n_l, s.n_d);
-                if constexpr (E.fractional_shine)
-                    highlight = N::unit(h.amount * N::power(cosine, h.shine));
-                else
-                    highlight = N::unit(h.amount * N::power_whole(cosine, h.shine));
-            }
-        }
-    };
-    shine();
+    constexpr bool waits = E.highlight && E.tree;
+    if constexpr (waits) {
+        if (diffuse == N::zero)
+            highlight = highlight_along(scene, seen, l, n_l);
+    } else if constexpr (E.highlight) {
+        highlight = highlight_along(scene, seen, l, n_l);
+    }
+    const bool waiting = waits && diffuse != N::zero;
     if (diffuse == N::zero && highlight == N::zero)
         return;
     if constexpr (E.shadow) {
@@ -157,11 +167,10 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
                 const auto through = light_through(scene, to_light, distance, light...);
                 if (through == N::zero)
                     return;
-                if (late) {
-                    late = false;
-                    shine();
-                }
                 diffuse = N::unit(diffuse * through);
+                if constexpr (waits)
+                    if (waiting)
+                        highlight = highlight_along(scene, seen, l, n_l);
                 highlight = N::unit(highlight * through);
             } else {
                 if (light_blocked(scene, to_light, distance, light...))
@@ -169,10 +178,9 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
             }
         }
     }
-    if (late) {
-        late = false;
-        shine();
-    }
+    if constexpr (waits)
+        if (waiting && !(E.see_through && scene.shadows.value))
+            highlight = highlight_along(scene, seen, l, n_l);
     add_scaled<N>(sum.matte, diffuse, colour);
     if constexpr (E.highlight)
         add_scaled<N>(sum.highlight.value, highlight, colour);
