@@ -32,7 +32,7 @@ LANES = ["-mavx2", "-mfma", "-mbmi", "-mbmi2", "-mlzcnt"] if platform.machine() 
 SYSTEMS = ["q16", "q32", "Float", "Double"]
 # Where floating point may be spoken of: number systems that are it, square roots for them, bytes from their samples, and the tree,
 # which q32 only uses where there is a floating-point unit, and vectors in such a unit's registers.
-FLOATING = {"number/root", "number/floating", "scene/tree", "picture/sampler", "number/lanes", "vector/vec_lanes"}
+FLOATING = {"number/root", "number/floating", "scene/tree", "scene/outline", "picture/sampler", "number/lanes", "vector/vec_lanes"}
 # Beside the compiler's own integer and floating helpers, which have reserved names.
 ALLOWED = re.compile(r"memcpy|memset|memmove|_GLOBAL_OFFSET_TABLE_"
                      r"|__(mul|div|udiv|mod|umod|divmod|udivmod|ash[lr]|lshr|clz|ctz|popcount|fix|float)\w*[sdt][ifx]\w*\d?$")

@@ -160,7 +160,7 @@ constexpr bool plane_distance(const Direction<N>& normal, uint32_t count, Corner
 
 // Does the ray's line pass inside of the outline? Corners are given relative to the ray's origin by corner(i).
 template <class N, class Corner>
-QRAY_INLINE constexpr bool encloses(uint32_t count, Corner corner, const Direction<N>& d)
+QRAY_INLINE constexpr bool encloses(uint32_t count, const Corner& corner, const Direction<N>& d)
 {
     const Shear<N> shear(d);
     bool inside = false;

@@ -31,17 +31,11 @@ QRAY_INLINE constexpr bool surely_missed(const Patch<N>& s, const Corners<N>& co
     return surely_beside<N>(3, [&](uint32_t i) { return corners.points[s.corner(i)]; }, ray);
 }
 
-// Corners as seen from the ray's origin.
-template <class N>
-QRAY_INLINE constexpr auto corners_from(const Patch<N>& s, const Point<N>* corners, const Ray<N>& ray)
-{
-    return [&s, corners, &ray](uint32_t i) { return corners[s.corner(i)] - ray.origin; };
-}
-
 template <class N>
 constexpr bool encloses(const Patch<N>& s, const Corners<N>& corners, const Ray<N>& ray)
 {
-    return encloses<N>(3, corners_from(s, corners.points, ray), ray.direction);
+    const auto corner = [&](uint32_t i) { return corners.points[i == 0 ? s.first : s.second + i - 1] - ray.origin; };
+    return encloses<N>(3, corner, ray.direction);
 }
 
 // t in (0, limit], or false. The triangle that the ray starts on does not count.
@@ -51,7 +45,10 @@ constexpr bool meets(const Patch<N>& s, const Point<N>* corners, const Ray<N>& r
 {
     if (ray.from == s.tag)
         return false;
-    return intersect_corners<Enclosed, N>(s.normal, 3, corners_from(s, corners, ray), ray, limit, t);
+    const auto corner = [&s, corners, &ray](uint32_t i) {
+        return corners[i == 0 ? s.first : s.second + i - 1] - ray.origin;
+    };
+    return intersect_corners<Enclosed, N>(s.normal, 3, corner, ray, limit, t);
 }
 
 template <bool Near = false, class N, class C>

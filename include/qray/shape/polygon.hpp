@@ -29,17 +29,11 @@ QRAY_INLINE constexpr bool surely_missed(const Polygon<N>& s, const Corners<N>& 
     return surely_beside<N>(s.count, [&](uint32_t i) { return corners.points[s.first + i]; }, ray);
 }
 
-// Corners as seen from the ray's origin.
-template <class N>
-QRAY_INLINE constexpr auto corners_from(const Polygon<N>& s, const Point<N>* corners, const Ray<N>& ray)
-{
-    return [first = corners + s.first, &ray](uint32_t i) { return first[i] - ray.origin; };
-}
-
 template <class N>
 constexpr bool encloses(const Polygon<N>& s, const Corners<N>& corners, const Ray<N>& ray)
 {
-    return encloses<N>(s.count, corners_from(s, corners.points, ray), ray.direction);
+    const auto corner = [&](uint32_t i) { return corners.points[s.first + i] - ray.origin; };
+    return encloses<N>(s.count, corner, ray.direction);
 }
 
 // t in (0, limit], or false. The polygon that the ray starts on does not count.
@@ -49,7 +43,9 @@ constexpr bool meets(const Polygon<N>& s, const Point<N>* corners, const Ray<N>&
 {
     if (ray.from == s.tag)
         return false;
-    return intersect_corners<Enclosed, N>(s.normal, s.count, corners_from(s, corners, ray), ray, limit, t);
+    const Point<N>* first = corners + s.first;
+    const auto corner = [first, &ray](uint32_t i) { return first[i] - ray.origin; };
+    return intersect_corners<Enclosed, N>(s.normal, s.count, corner, ray, limit, t);
 }
 
 template <bool Near = false, class N, class C>
