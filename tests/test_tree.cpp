@@ -1,4 +1,4 @@
-// The tree only leaves out what a ray cannot meet: with it and without it every hit is the same.
+// The trees only leave out what a ray cannot meet: with one and without it every hit is the same.
 #include "scene_helpers.hpp"
 
 namespace {
@@ -10,12 +10,24 @@ template <class N>
 struct TreeTest : ::testing::Test {};
 TYPED_TEST_SUITE(TreeTest, NumberSystems, SystemNames);
 
-constexpr Effects shapes(bool tree)
+enum class Over { none, desktop, compiled };
+
+constexpr Effects shapes(Over tree)
 {
     Effects e;
-    e.sphere = e.disc = e.cone = e.polygon = e.patch = true;
-    e.tree = tree;
+#define QRAY_TAKE(Type, name, table) e.name = true;
+    QRAY_SHAPES(QRAY_TAKE)
+#undef QRAY_TAKE
+    e.tree = tree == Over::desktop;
+    e.flat_tree = tree == Over::compiled;
     return e;
+}
+
+constexpr scene::Settings settings(Over tree)
+{
+    scene::Settings s;
+    s.compiled = tree == Over::compiled;
+    return s;
 }
 
 std::string numbers(std::initializer_list<double> list)
@@ -45,15 +57,18 @@ std::string objects(Random& random, int count, double spread, double size)
     return text;
 }
 
-template <class N>
+template <class N, Over tree>
 void expect_same_hits(uint64_t seed, int count, double size, int rays)
 {
     Random random(seed);
     const double spread = 8;
     ASSERT_TRUE(loaded<N>("v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3\n"
-                          + objects(random, count, spread, size)));
-    const auto with = storage<N>().template view<shapes(true)>();
-    const auto without = storage<N>().template view<shapes(false)>();
+                          + objects(random, count, spread, size),
+                          settings(tree)));
+    if (tree == Over::compiled && storage<N>().entries.count == 0)
+        return; // too few
+    const auto with = storage<N>().template view<shapes(tree)>();
+    const auto without = storage<N>().template view<shapes(Over::none)>();
     const double k = value(with.camera.eye.z) / 8 * 1.2;
     int hits = 0;
     for (int i = 0; i < rays; i++) {
@@ -78,20 +93,26 @@ void expect_same_hits(uint64_t seed, int count, double size, int rays)
 
 TYPED_TEST(TreeTest, HitsAreTheSameForEveryNumberOfObjects)
 {
-    for (int count = 1; count <= 40; count++)
-        expect_same_hits<TypeParam>(static_cast<uint64_t>(count), count, 4, 300);
+    for (int count = 1; count <= 45; count++) {
+        expect_same_hits<TypeParam, Over::desktop>(static_cast<uint64_t>(count), count, 4, 300);
+        expect_same_hits<TypeParam, Over::compiled>(static_cast<uint64_t>(count), count, 4, 300);
+    }
 }
 
 TYPED_TEST(TreeTest, HitsAreTheSameAmongManyObjects)
 {
-    expect_same_hits<TypeParam>(1001, 200, 2, 1000);
-    expect_same_hits<TypeParam>(1002, 1500, 0.5, 1000);
-    expect_same_hits<TypeParam>(1003, 5000, 0.25, 300);
+    expect_same_hits<TypeParam, Over::desktop>(1001, 200, 2, 1000);
+    expect_same_hits<TypeParam, Over::desktop>(1002, 1500, 0.5, 1000);
+    expect_same_hits<TypeParam, Over::desktop>(1003, 5000, 0.25, 300);
+    expect_same_hits<TypeParam, Over::compiled>(1001, 200, 2, 1000);
+    expect_same_hits<TypeParam, Over::compiled>(1002, 1500, 0.5, 1000);
+    expect_same_hits<TypeParam, Over::compiled>(1003, 5000, 0.25, 300);
 }
 
 TYPED_TEST(TreeTest, HitsAreTheSameAmongTinyObjects)
 {
-    expect_same_hits<TypeParam>(1004, 300, 1, 500);
+    expect_same_hits<TypeParam, Over::desktop>(1004, 300, 1, 500);
+    expect_same_hits<TypeParam, Over::compiled>(1004, 300, 1, 500);
     using N = TypeParam;
     // Balls of a thousandth (in q16, whose directions are no finer, of a twentieth), each aimed at: none may be lost to
     // the rounding of binary32.
@@ -101,15 +122,19 @@ TYPED_TEST(TreeTest, HitsAreTheSameAmongTinyObjects)
         const Vec3 p = random.point(8);
         text += "s" + numbers({p.x, p.y, p.z, NarrowFixed<N> ? 0.05 : 0.001}) + "\n";
     }
-    ASSERT_TRUE(loaded<N>(text));
-    const auto with = storage<N>().template view<shapes(true)>();
-    for (uint32_t i = 0; i < with.spheres.count; i++) {
-        const Vec3 centre = value(with.spheres[i].centre);
-        const Vec3 from = random.point(30);
-        Hit<N> hit{};
-        ASSERT_TRUE(nearest(with, make<N>::ray(from, centre - from), hit)) << i;
-        EXPECT_LE(value(hit.t), length(centre - from) + (NarrowFixed<N> ? 0.05 : 1e-3));
-    }
+    const auto find_all = [&]<Over tree>() {
+        ASSERT_TRUE(loaded<N>(text, settings(tree)));
+        const auto with = storage<N>().template view<shapes(tree)>();
+        for (uint32_t i = 0; i < with.spheres.count; i++) {
+            const Vec3 centre = value(with.spheres[i].centre);
+            const Vec3 from = random.point(30);
+            Hit<N> hit{};
+            ASSERT_TRUE(nearest(with, make<N>::ray(from, centre - from), hit)) << i;
+            EXPECT_LE(value(hit.t), length(centre - from) + (NarrowFixed<N> ? 0.05 : 1e-3));
+        }
+    };
+    find_all.template operator()<Over::desktop>();
+    find_all.template operator()<Over::compiled>();
 }
 
 // What a box test may get wrong, by its own boxes: those that it holds rays against, in the moved and scaled scene.
@@ -173,9 +198,9 @@ constexpr int hostile_rays = 3000;
 constexpr int hostile_rays = 500000;
 #endif
 
-TYPED_TEST(TreeTest, HostileRaysHitTheSame)
+template <class N, Over tree>
+void expect_hostile_rays_hit_the_same()
 {
-    using N = TypeParam;
     Random random(2001);
     std::string text = "v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3\n" + objects(random, 30, 8, 3)
         + objects(random, 20, 8, 0.5) + "p 20";
@@ -183,10 +208,13 @@ TYPED_TEST(TreeTest, HostileRaysHitTheSame)
         text += numbers({(i % 2 ? 3 : 6) * cos(i * M_PI / 10), (i % 2 ? 3 : 6) * sin(i * M_PI / 10), 1});
     for (int i = 0; i < 9; i++) // and boxes that touch
         text += "\np 4" + numbers({-8.0 + i, -8, 2, -7.0 + i, -8, 2, -7.0 + i, -7, 2, -8.0 + i, -7, 2});
-    ASSERT_TRUE(loaded<N>(text + "\n"));
-    const auto with = storage<N>().template view<shapes(true)>();
-    const auto without = storage<N>().template view<shapes(false)>();
-    ASSERT_EQ(with.tree.value.ball_nodes, 0u);
+    ASSERT_TRUE(loaded<N>(text + "\n", settings(tree)));
+    const auto with = storage<N>().template view<shapes(tree)>();
+    const auto without = storage<N>().template view<shapes(Over::none)>();
+    if constexpr (tree == Over::desktop)
+        ASSERT_EQ(with.tree.value.ball_nodes, 0u);
+    else
+        ASSERT_NE(with.entries.count, 0u);
     HostileRays rays(2002, storage<N>().split_shapes);
     int hits = 0;
     for (int i = 0; i < hostile_rays; i++) {
@@ -206,6 +234,12 @@ TYPED_TEST(TreeTest, HostileRaysHitTheSame)
     EXPECT_GT(hits, hostile_rays / 4);
 }
 
+TYPED_TEST(TreeTest, HostileRaysHitTheSame)
+{
+    expect_hostile_rays_hit_the_same<TypeParam, Over::desktop>();
+    expect_hostile_rays_hit_the_same<TypeParam, Over::compiled>();
+}
+
 TYPED_TEST(TreeTest, CoincidentObjectsAreToldApartByTheirPlace)
 {
     using N = TypeParam;
@@ -213,11 +247,15 @@ TYPED_TEST(TreeTest, CoincidentObjectsAreToldApartByTheirPlace)
     std::string text = "v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3\n s 3 0 0 1\n";
     for (int i = 0; i < 100; i++)
         text += "s 0 0 0 1\n disc 0 0 1 0 0 1 1\n";
-    ASSERT_TRUE(loaded<N>(text));
-    const auto with = storage<N>().template view<shapes(true)>();
-    Hit<N> hit{};
-    ASSERT_TRUE(nearest(with, make<N>::ray(value(with.camera.eye), {0, 0, -1}), hit));
-    EXPECT_EQ(hit.tag.place(), 1u);
+    const auto find_first = [&]<Over tree>() {
+        ASSERT_TRUE(loaded<N>(text, settings(tree)));
+        const auto with = storage<N>().template view<shapes(tree)>();
+        Hit<N> hit{};
+        ASSERT_TRUE(nearest(with, make<N>::ray(value(with.camera.eye), {0, 0, -1}), hit));
+        EXPECT_EQ(hit.tag.place(), 1u);
+    };
+    find_first.template operator()<Over::desktop>();
+    find_first.template operator()<Over::compiled>();
 }
 
 } // namespace
