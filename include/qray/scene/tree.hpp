@@ -98,7 +98,8 @@ public:
         const BoundSigns bits = __builtin_bit_cast(BoundSigns, d), sign = bits & INT32_MIN;
         const BoundParts size = __builtin_bit_cast(BoundParts, bits & INT32_MAX);
         const BoundParts most = size > least ? size : least + BoundParts{};
-        const BoundParts k = (1.0f / bound_ulp<N, Unit>) / __builtin_bit_cast(BoundParts, __builtin_bit_cast(BoundSigns, most) | sign);
+        const BoundSigns some = __builtin_bit_cast(BoundSigns, most) | sign;
+        const BoundParts k = (1.0f / bound_ulp<N, Unit>) / __builtin_bit_cast(BoundParts, some);
         const BoundParts c = bound_parts<N>(ray.origin) * (k * -bound_ulp<N, Length>);
         kx = all_bounds(k[0]);
         ky = all_bounds(k[1]);
@@ -106,22 +107,19 @@ public:
         cx = all_bounds(c[0]);
         cy = all_bounds(c[1]);
         cz = all_bounds(c[2]);
-        near_x = sign[0] < 0 ? sizeof(Bounds) : 0;
-        near_y = sign[1] < 0 ? sizeof(Bounds) : 0;
-        near_z = sign[2] < 0 ? sizeof(Bounds) : 0;
+        near_x = sign[0] < 0;
+        near_y = sign[1] < 0;
+        near_z = sign[2] < 0;
     }
 
     // Which boxes of a node the ray may enter before `limit`, as bits, and where.
     QRAY_INLINE uint32_t enters(const BoxNode& node, float limit, Bounds& from) const
     {
-        const auto side = [&node](int axis, size_t offset) __attribute__((always_inline)) -> const Bounds& {
-            return *reinterpret_cast<const Bounds*>(reinterpret_cast<const char*>(node.sides[axis]) + offset);
-        };
-        constexpr size_t other = sizeof(Bounds);
-        from = higher(higher(mul_add(side(0, near_x), kx, cx), mul_add(side(1, near_y), ky, cy)),
-                      higher(mul_add(side(2, near_z), kz, cz), Bounds{}));
-        const Bounds to = lower(lower(mul_add(side(0, near_x ^ other), kx, cx), mul_add(side(1, near_y ^ other), ky, cy)),
-                                lower(mul_add(side(2, near_z ^ other), kz, cz), all_bounds(limit)));
+        const auto& [x, y, z] = node.sides;
+        from = higher(higher(mul_add(x[near_x], kx, cx), mul_add(y[near_y], ky, cy)),
+                      higher(mul_add(z[near_z], kz, cz), Bounds{}));
+        const Bounds to = lower(lower(mul_add(x[near_x ^ 1], kx, cx), mul_add(y[near_y ^ 1], ky, cy)),
+                                lower(mul_add(z[near_z ^ 1], kz, cz), all_bounds(limit)));
         return mask_bits(from <= to);
     }
 
@@ -137,8 +135,8 @@ public:
     }
 
 private:
-    Bounds kx, ky, kz, cx, cy, cz;   // 1/d and -o/d
-    size_t near_x, near_y, near_z; // the near side of each axis, in bytes behind the low one
+    Bounds kx, ky, kz, cx, cy, cz; // 1/d and -o/d
+    size_t near_x, near_y, near_z; // which side of each axis is near
 };
 
 // A ray as it is held against balls, where these are few: it needs no quotients. In units that make conversion cheap: a
@@ -253,14 +251,17 @@ QRAY_INLINE void walk(const Tree<N>& tree, const Ray<N>& ray, Limit limit, Visit
     const BoxRay<N> bounded(ray);
     float end = BoxRay<N>::beyond(limit());
     uint32_t link = 0;
+    constexpr uint32_t nothing = ~0u;
     for (;;) {
         while ((link & leaf_bit) == 0) {
             const BoxNode& node = tree.nodes[link];
-            alignas(Bounds) uint32_t from[bound_lanes];
             Bounds entered;
             uint32_t mask = bounded.enters(node, end, entered);
-            if (mask == 0)
-                goto next;
+            if (mask == 0) {
+                link = nothing;
+                break;
+            }
+            uint32_t from[bound_lanes];
             __builtin_memcpy(from, &entered, sizeof from);
             const auto entry = [&](uint32_t i) __attribute__((always_inline)) {
                 return uint64_t{from[i]} << 32 | node.links[i]; // from >= 0: in the order of integers
@@ -270,33 +271,32 @@ QRAY_INLINE void walk(const Tree<N>& tree, const Ray<N>& ray, Limit limit, Visit
             link = node.links[i];
             if (mask == 0)
                 continue;
-            if constexpr (NearestFirst) {
-                uint64_t* const base = top;
+            uint64_t* const base = top;
+            if constexpr (NearestFirst)
                 *top++ = entry(i);
-                do {
-                    i = lowest_bit(mask);
-                    mask &= mask - 1;
+            do {
+                i = lowest_bit(mask);
+                mask &= mask - 1;
+                uint64_t* at = top++;
+                if constexpr (NearestFirst) {
                     const uint64_t e = entry(i);
-                    uint64_t* at = top++;
                     for (; at != base && at[-1] < e; at--)
                         *at = at[-1];
                     *at = e;
-                } while (mask != 0);
+                } else {
+                    *at = node.links[i];
+                }
+            } while (mask != 0);
+            if constexpr (NearestFirst)
                 link = static_cast<uint32_t>(*--top);
-            } else {
-                do {
-                    i = lowest_bit(mask);
-                    mask &= mask - 1;
-                    *top++ = node.links[i];
-                } while (mask != 0);
-            }
         }
-        for (uint32_t i = link & 0x0fffffff, count = (link >> 28 & 7) + 1; count != 0; i++, count--)
-            if (ask(tree.shapes[i]))
-                return;
-        if constexpr (NearestFirst)
-            end = BoxRay<N>::beyond(limit());
-    next:
+        if (link != nothing) {
+            for (uint32_t i = link & 0x0fffffff, count = (link >> 28 & 7) + 1; count != 0; i++, count--)
+                if (ask(tree.shapes[i]))
+                    return;
+            if constexpr (NearestFirst)
+                end = BoxRay<N>::beyond(limit());
+        }
         do {
             if (top == stack)
                 return;
