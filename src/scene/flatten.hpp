@@ -1,5 +1,4 @@
-// Builds the tree of a compiled scene: the binary one of split.hpp in preorder, the child nearer to the eye first, and the
-// shapes in the order of its leaves.
+// Builds the tree of a compiled scene: the binary one of split.hpp in preorder, the child nearer to the eye first.
 #pragma once
 
 #include "storage.hpp"
@@ -19,31 +18,18 @@ public:
 
     void flatten()
     {
-        uint32_t shapes = 0;
-#define QRAY_START(Type, name, table) \
-        first[static_cast<int>(Kind::name)] = shapes; \
-        shapes += s.table.count;
-        QRAY_SHAPES(QRAY_START)
-#undef QRAY_START
         box_shapes(s);
-        const uint32_t count = split_by_area(s.split_shapes.data, shapes, 2, nodes);
+        const uint32_t count = split_shapes(s);
         choose(count);
         if (count != 0)
             entries();
         s.entries.push() = {0, 0, 0, UINT16_MAX, UINT16_MAX, UINT16_MAX, TreeEntry<N>::last};
-#define QRAY_REORDER(Type, name, table) reorder(s.table.data, order + first[static_cast<int>(Kind::name)], s.table.count);
-        QRAY_SHAPES(QRAY_REORDER)
-#undef QRAY_REORDER
     }
 
 private:
-    static constexpr int kinds = 8; // as a leaf's link has bits for
-
     Storage<N>& s;
     SplitBox* const nodes = s.split_nodes.data;
-    uint32_t* const tests = s.tests.data;         // of a node: boxes below it that are tested where it is met; 0: it has none
-    uint32_t* const order = s.order.data;         // old numbers of shapes by new ones, kind after kind
-    uint32_t first[kinds] = {}, placed[kinds] = {}; // of a kind: its place there, and how many have a new number
+    uint32_t* const tests = s.tests.data; // of a node: boxes below it that are tested where it is met; 0: it has none
 
     // Which inner nodes have a box. One that is met by the share p of its parent's rays costs these a test, and saves the
     // others those of the k boxes directly below it: it pays where k (1 - p) > 1.
@@ -94,20 +80,15 @@ private:
         }
     }
 
-    // Shapes of one kind make an entry, and get the next numbers of that kind.
+    // Shapes of one kind make an entry.
     void leaf(const SplitBox* at, uint32_t count)
     {
-        const auto kind_of = [](const SplitBox& shape) { return ShapeId{shape.first}.kind(); };
         for (const SplitBox* const end = at + count; at != end;) {
-            const Kind kind = kind_of(*at);
-            const int k = static_cast<int>(kind);
-            const uint32_t begin = placed[k];
+            const ShapeId first{at->first};
             SplitBounds box;
-            for (; at != end && kind_of(*at) == kind; at++) {
+            for (; at != end && ShapeId{at->first}.kind() == first.kind(); at++)
                 box.add(at->lows(), at->highs());
-                order[first[k] + placed[k]++] = ShapeId{at->first}.index();
-            }
-            entry(box.low, box.high, TreeEntry<N>::leaf(kind, begin, placed[k] - begin));
+            entry(box.low, box.high, TreeEntry<N>::leaf(first.kind(), first.index(), box.count));
         }
     }
 
@@ -139,22 +120,6 @@ private:
             square += off * off;
         }
         return square;
-    }
-
-    // Puts a table into its new order: entry i is what was entry old[i]. Goes round the circles in which they change places.
-    template <class T>
-    static void reorder(T* table, uint32_t* old, uint32_t count)
-    {
-        for (uint32_t i = 0; i < count; i++) {
-            const T kept = table[i];
-            uint32_t to = i;
-            for (uint32_t from; (from = old[to]) != i; to = from) {
-                table[to] = table[from];
-                old[to] = to;
-            }
-            table[to] = kept;
-            old[to] = to;
-        }
     }
 };
 

@@ -139,6 +139,46 @@ void box_shapes(Storage<N>& s)
 #undef QRAY_ADD
 }
 
+// Puts a table into its new order: entry i is what was entry old[i]. Goes round the circles in which they change places.
+template <class T>
+void reorder(T* table, uint32_t* old, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const T kept = table[i];
+        uint32_t to = i;
+        for (uint32_t from; (from = old[to]) != i; to = from) {
+            table[to] = table[from];
+            old[to] = to;
+        }
+        table[to] = kept;
+        old[to] = to;
+    }
+}
+
+// The binary tree over all shapes, of whose boxes it is made, and these in the order of its leaves. Returns how many nodes
+// it has.
+template <class N>
+uint32_t split_shapes(Storage<N>& s)
+{
+    const uint32_t nodes = split_by_area(s.split_shapes.data, s.split_shapes.count, 2, s.split_nodes.data);
+    uint32_t start = 0;
+#define QRAY_ORDER(Type, name, table) \
+    { \
+        uint32_t* const old = s.order.data + start; \
+        uint32_t next = 0; \
+        for (uint32_t i = 0; i < s.split_shapes.count; i++) \
+            if (uint32_t& id = s.split_shapes.data[i].first; ShapeId{id}.kind() == Kind::name) { \
+                old[next] = ShapeId{id}.index(); \
+                id = shape_id(Kind::name, next++).bits; \
+            } \
+        reorder(s.table.data, old, next); \
+        start += next; \
+    }
+    QRAY_SHAPES(QRAY_ORDER)
+#undef QRAY_ORDER
+    return nodes;
+}
+
 template <class N>
 void build_tree(Storage<N>& s)
 {
@@ -157,7 +197,7 @@ void build_tree(Storage<N>& s)
         return;
     }
     const SplitBox* const split = s.split_nodes.data;
-    split_by_area(s.split_shapes.data, count, 2, s.split_nodes.data);
+    split_shapes(s);
     // A node's first link is, until it is made, the part of the binary tree that it stands for.
     s.nodes.push().links[0] = 0;
     for (uint32_t made = 0; made < s.nodes.count; made++) {
