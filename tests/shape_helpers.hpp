@@ -84,7 +84,7 @@ struct ShapeOf {
         surface(ray, point, n);
         return n;
     }
-    Vec3 shading(const Ray<N>& ray) const { return value(shading_normal(shape, corners(), ray)); }
+    Vec3 shading(const Ray<N>& ray) const { return value(shading_normal(shape, corners(), ray, normal_of(shape, corners()))); }
     int crossings(const Ray<N>& ray, Length distance) const
     {
         return qray::crossings(shape, corners(), ray, distance);

@@ -20,10 +20,10 @@ public:
         int32_t start, slope, steepness; // y where x is 0, Q14; Q14, and that without its sign
 
         // Does the line pass a box whose x and y are within half_x and half_y of these?
-        QRAY_INLINE constexpr bool passes(int32_t x, int32_t half_x, int32_t y, int32_t half_y) const
+        QRAY_INLINE constexpr bool passes(int32_t box_x, int32_t half_x, int32_t box_y, int32_t half_y) const
         {
             // At most 127000 2^14, and `reach` half of that.
-            const int32_t beside = (y << slope_frac) - start - slope * x;
+            const int32_t beside = (box_y << slope_frac) - start - slope * box_x;
             const uint32_t reach = (static_cast<uint32_t>(half_y) << slope_frac)
                 + static_cast<uint32_t>(steepness * half_x);
             return static_cast<uint32_t>(beside) + reach <= 2 * reach;
