@@ -15,11 +15,27 @@ TYPED_TEST_SUITE(LeanTest, NumberSystems, SystemNames);
 constexpr scene::Settings lean()
 {
     scene::Settings s;
-    s.lean = true;
+    s.compiled = true;
     return s;
 }
 
-const std::string view = "v from 1 2 9 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 40 30\nl 5 9 7 l -6 2 4\n";
+// What draws a compiled scene with a tree.
+constexpr Effects flat()
+{
+    Effects e = everything(5);
+    e.tree = false;
+    return e;
+}
+
+std::string enough_for_a_tree()
+{
+    std::string text;
+    for (uint32_t i = 0; i < scene::least_for_tree<q16>; i++)
+        text += "s 0 0 9 0.25\n"; // behind the eye
+    return text;
+}
+
+const std::string view = "v from 1 2 9 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 40 30\nl 5 9 7 l -6 2 4\n" + enough_for_a_tree();
 
 // The six corners of an octahedron, as text: x, -x, y, -y, z, -z; smooth, each with the normal along its axis.
 std::string octahedron(bool smooth, const char* scale = "1")
@@ -79,7 +95,7 @@ TYPED_TEST(LeanTest, WhatDoesNotFitIsLeft)
     if (!WideFixed<N>) // the same for all
         return;
     std::string many = view;
-    for (int i = 0; i < 65532; i++)
+    for (uint32_t i = scene::least_for_tree<q16>; i < 65532; i++)
         many += "s 0 0 0 1\n";
     ASSERT_TRUE(loaded<N>(many + octahedron(false), lean()));
     EXPECT_EQ(s.triangles.count, 4u);
@@ -121,13 +137,40 @@ TYPED_TEST(LeanTest, PicturesAreThoseOfPolygonsAndPatches)
         EXPECT_EQ(s.polygons.count + s.patches.count + s.triangles.count + s.smooth_triangles.count, all);
         triangles += s.triangles.count + s.smooth_triangles.count;
         others += s.polygons.count + s.patches.count;
-        EXPECT_EQ(draw<N>(), expected);
+        EXPECT_EQ((draw<N, flat()>()), expected);
     }
     EXPECT_GT(triangles, 250u);
     if (N::is_fixed) // slivers, of which rounded corners say too little
         EXPECT_GT(others, 0u);
     else
         EXPECT_EQ(others, 0u);
+}
+
+// Of a fan, a sliver stays a patch, with all the corners of the fan, beside those that its other triangles share.
+TYPED_TEST(LeanTest, AFanMayFitInPart)
+{
+    using N = TypeParam;
+    std::string text = view;
+    for (int i = 0; i < 40; i++) {
+        const double x = 0.3 * (i % 8) - 1.2, y = 0.3 * (i / 8) - 0.6;
+        const auto corner = [&](double u, double v) {
+            char at[100];
+            snprintf(at, sizeof at, " %.9f %.9f %.9f %.3f %.3f 1", x + u, y + v, 0.1 * u, u, v);
+            return std::string(at);
+        };
+        text += "pp 4" + corner(0, 0) + corner(0.25, 0) + corner(0.25, 0.25) + corner(0.125 - 1e-5, 0.125 + 1e-5) + "\n";
+    }
+    ASSERT_TRUE(loaded<N>(text));
+    const Picture expected = draw<N>();
+    ASSERT_TRUE(loaded<N>(text, lean()));
+    const auto& s = storage<N>();
+    EXPECT_EQ(s.vertices.count, s.normals.count);
+    if (WideFixed<N>) {
+        EXPECT_EQ(s.patches.count, 40u);
+        EXPECT_EQ(s.smooth_triangles.count, 40u);
+        EXPECT_GT(s.vertices.count, 160u); // more than the text has
+    }
+    EXPECT_EQ((draw<N, flat()>()), expected);
 }
 
 } // namespace

@@ -118,7 +118,7 @@ struct RendererOf {
                       scene::Error& error)
     {
         scene::Storage<N>& storage = storage_of<N>();
-        if (!make_room(storage.room, storage.lay_out(description))) {
+        if (!make_room(storage.room, storage.lay_out(description, settings.compiled))) {
             snprintf(error.text, sizeof error.text, "not enough memory for the scene");
             return false;
         }

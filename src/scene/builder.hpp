@@ -16,7 +16,7 @@ namespace qray::scene {
 template <class N>
 class Builder {
 public:
-    // `into` has the room that into.lay_out(from) asks for.
+    // `into` has the room that into.lay_out(from, with.compiled) asks for.
     Builder(const Description& from, const Settings& with, Storage<N>& into) : d(from), s(into), settings(with) {}
 
     // False, and a reason in `error` without a place, where the scene does not fit the number system.
@@ -25,7 +25,7 @@ public:
         if (!few_enough(error))
             return false;
         flat = settings.compiled && surfaces() >= least_for_tree<N>;
-        if (s.lay_out(d) > s.room.size) {
+        if (s.lay_out(d, settings.compiled) > s.room.size) {
             snprintf(error.text, sizeof error.text, "not enough memory");
             return false;
         }

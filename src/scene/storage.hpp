@@ -57,11 +57,11 @@ struct Storage {
     // For the builder alone.
     Array<SplitBox> split_shapes, split_nodes; // as is
     Array<SortedObject> sorted;
-    Array<uint32_t> order, tests; // of flatten.hpp
+    Array<uint32_t> order, tests;
     Array<uint32_t> corner_slots; // the number of a corner, and 1, at its hash or the next place that was free
 
     // Cuts empty tables from the room where it is large enough; returns how many bytes it must have.
-    size_t lay_out(const Description& d)
+    size_t lay_out(const Description& d, bool compiled)
     {
 #define QRAY_ONE(Type, name, table) +1
         constexpr int kinds = QRAY_SHAPES(QRAY_ONE);
@@ -77,10 +77,16 @@ struct Storage {
 #define QRAY_CUT(Type, name, table) cut(table, shapes[static_cast<int>(Kind::name)]);
             QRAY_SHAPES(QRAY_CUT)
 #undef QRAY_CUT
-            cut(triangles, shapes[static_cast<int>(Kind::polygon)]);
-            cut(smooth_triangles, shapes[static_cast<int>(Kind::patch)]);
-            cut(vertices, d.vertex_count);
-            cut(normals, d.vertex_count);
+            // For compiled scenes alone: see lean.hpp, flatten.hpp. A patch that lean.hpp takes in part has its corners twice.
+            const uint32_t once = compiled;
+            cut(triangles, once * shapes[static_cast<int>(Kind::polygon)]);
+            cut(smooth_triangles, once * shapes[static_cast<int>(Kind::patch)]);
+            cut(corner_slots, once * (2 * d.vertex_count + 1));
+            cut(entries, once * 2 * all);
+            cut(order, all);
+            cut(tests, once * 2 * all);
+            cut(vertices, (1 + once) * d.vertex_count);
+            cut(normals, (1 + once) * d.vertex_count);
             cut(tree_shapes, all);
             if constexpr (has_outlines<N>) // one a triangle; most for its size takes what has one edge more than a block
                 cut(outlines, shapes[static_cast<int>(Kind::patch)] + d.vertex_count * 8 / (3 * bound_lanes));
@@ -89,7 +95,6 @@ struct Storage {
             // All but those of leaves are full, and with two leaves each there are bound_lanes of these below one.
             cut(nodes, (all + 1) / 2 * bound_lanes / (bound_lanes - 1) + 2);
             cut(sorted, d.object_count);
-            cut(corner_slots, 2 * d.vertex_count + 1);
             cut(mattes, d.fill_count);
             cut(textures, d.fill_count);
 #define QRAY_CUT(Type, name, table) cut(table, d.fill_count);
@@ -100,9 +105,6 @@ struct Storage {
             QRAY_LIGHTS(QRAY_CUT)
 #undef QRAY_CUT
             cut(light_surfaces, d.light_count * light_surfaces_each);
-            cut(entries, 2 * all);
-            cut(order, all);
-            cut(tests, 2 * all);
         });
     }
 
