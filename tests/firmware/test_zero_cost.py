@@ -26,7 +26,7 @@ MATERIAL = {
     "highlight": "highlight 0.5 shine 3.5", "mirror": "mirror 0.3", "transmit": "transmit 0.4 ior 1.5",
 }
 # All but what has no header of its own, and but those that the text does not say.
-UNSAID = {"tree", "triangle", "smooth_triangle"}
+UNSAID = {"tree", "flat_tree", "triangle", "smooth_triangle"}
 EFFECTS = [effect for effect in TOLD["effects"] if effect not in UNSAID | {"fractional_shine"}]
 # What a scene lacks beside an effect: light comes through surfaces that transmit; samples are taken in one way.
 WITHOUT = {effect: {"adaptive"} for effect in [*EFFECTS, *UNSAID]} | {"grid": set(), "adaptive": set()}

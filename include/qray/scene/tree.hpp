@@ -78,12 +78,13 @@ QRAY_INLINE BoundParts bound_parts(const Vec<L>& v)
         return BoundParts{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 template <class N, class L>
-inline constexpr float bound_ulp = [] {
+constexpr float bound_ulp()
+{
     if constexpr (N::is_fixed)
         return 1.0f / static_cast<float>(int64_t{1} << L::frac);
     else
         return 1.0f;
-}();
+}
 
 // A ray as it is held against boxes.
 template <class N>
@@ -93,14 +94,14 @@ public:
     {
         using Length = typename N::Length;
         using Unit = typename N::Unit;
-        constexpr float least = 0x1p-30f / bound_ulp<N, Unit>;
+        constexpr float least = 0x1p-30f / bound_ulp<N, Unit>();
         const BoundParts d = bound_parts<N>(ray.direction);
         const BoundSigns bits = __builtin_bit_cast(BoundSigns, d), sign = bits & INT32_MIN;
         const BoundParts size = __builtin_bit_cast(BoundParts, bits & INT32_MAX);
         const BoundParts most = size > least ? size : least + BoundParts{};
         const BoundSigns some = __builtin_bit_cast(BoundSigns, most) | sign;
-        const BoundParts k = (1.0f / bound_ulp<N, Unit>) / __builtin_bit_cast(BoundParts, some);
-        const BoundParts c = bound_parts<N>(ray.origin) * (k * -bound_ulp<N, Length>);
+        const BoundParts k = (1.0f / bound_ulp<N, Unit>()) / __builtin_bit_cast(BoundParts, some);
+        const BoundParts c = bound_parts<N>(ray.origin) * (k * -bound_ulp<N, Length>());
         kx = all_bounds(k[0]);
         ky = all_bounds(k[1]);
         kz = all_bounds(k[2]);
@@ -129,7 +130,7 @@ public:
     {
         constexpr float more = NarrowFixed<N> ? 1.0f : 1.0f / 16;
         if constexpr (N::is_fixed)
-            return static_cast<float>(limit.raw) * bound_ulp<N, typename N::Length> + more;
+            return static_cast<float>(limit.raw) * bound_ulp<N, typename N::Length>() + more;
         else
             return static_cast<float>(limit) + more;
     }
@@ -145,7 +146,7 @@ template <class N>
 class BallRay {
 public:
     // A length of 1, and the length of a direction.
-    static constexpr float length = 1 / bound_ulp<N, typename N::Length>, unit = 1 / bound_ulp<N, typename N::Unit>;
+    static constexpr float length = 1 / bound_ulp<N, typename N::Length>(), unit = 1 / bound_ulp<N, typename N::Unit>();
 
     explicit QRAY_INLINE BallRay(const Ray<N>& ray)
     {
