@@ -41,7 +41,8 @@ struct RayCount {
 
 namespace qray {
 
-// What takes long to compile: once for all tests, in tests/scene_helpers.cpp.
+// What takes long to compile: once for all tests, in tests/scene_helpers.cpp; not for those in lanes, which are alone.
+#ifndef QRAY_ALONE
 #ifndef QRAY_ONCE
 #define QRAY_ONCE extern
 #endif
@@ -53,6 +54,7 @@ QRAY_FOR(q32);
 QRAY_FOR(Float);
 QRAY_FOR(Double);
 #undef QRAY_FOR
+#endif
 
 } // namespace qray
 

@@ -19,8 +19,8 @@ build/sanitized/obj/lanes/test_fuzz_corpus.o: tests/test_fuzz_corpus.cpp
 build/obj/lanes/%.o: build/obj/flags
 	@echo "  compile $*.cpp in lanes"
 	@mkdir -p $(@D)
-	@$(CXX) $(FLAGS) $(LANES) -c $(firstword $(filter %.cpp,$^)) -o $@
+	@$(CXX) $(FLAGS) $(LANES) -DQRAY_ALONE -c $(firstword $(filter %.cpp,$^)) -o $@
 build/sanitized/obj/lanes/%.o: build/obj/flags
 	@echo "  compile $*.cpp in lanes with sanitizers"
 	@mkdir -p $(@D)
-	@$(CXX) $(SANITIZE) $(LANES) -O1 -c $(firstword $(filter %.cpp,$^)) -o $@
+	@$(CXX) $(SANITIZE) $(LANES) -DQRAY_ALONE -O1 -c $(firstword $(filter %.cpp,$^)) -o $@
