@@ -64,6 +64,20 @@ TYPED_TEST(ImageTest, AmbientLightAloneIsTheColourTimesItTimesTheCoefficient)
             expect_light(light_at<N>(i, j), {0.125, 0.125, 0.375}, light_tolerance<N>());
 }
 
+// Beside the ambient light, without lamps, and in a mirror: also where it is far brighter than what can be seen.
+TYPED_TEST(ImageTest, EmissionIsTheColourTimesIt)
+{
+    using N = TypeParam;
+    ASSERT_TRUE(loaded<N>(view() + "ambientlight 0.5 0.25 1\n"
+                                   "material colour 0.5 1 0.25 ambient 0.5 emission 0.25\n s 0 0 0 100"));
+    expect_light(light_at<N>(4, 4), {0.5 * (0.25 + 0.25), 0.125 + 0.25, 0.25 * (0.5 + 0.25)}, light_tolerance<N>());
+    ASSERT_TRUE(loaded<N>(view() + "material colour 0.25 0.5 1 emission 64 ambient 0\n disc 0 0 -1 0 0 1 50"));
+    expect_light(light_at<N>(4, 4), {16, 32, 64}, 64 * light_tolerance<N>());
+    ASSERT_TRUE(loaded<N>(view() + "ambientlight 0 0 0 material mirror 0.0078125 disc 0 0 0 0 0 1 50\n"
+                                   "material colour 0.25 0.5 1 emission 64\n disc 0 0 50 0 0 1 100"));
+    expect_light(light_at<N>(4, 4), {0.125, 0.25, 0.5}, 16 * light_tolerance<N>());
+}
+
 // A disc seen head on, lit by a sun along the line of sight: every pixel has A ambient + cos 0.
 TYPED_TEST(ImageTest, PlaneLitBySunIsUniform)
 {

@@ -247,11 +247,12 @@ TEST(Parser, MaterialNamesWhatDiffersFromTheDefaults) {
     EXPECT_EQ(defaults.mirror, 0);
     EXPECT_EQ(defaults.transmit, 0);
     EXPECT_EQ(defaults.ior, 1);
+    EXPECT_EQ(defaults.emission, 0);
     EXPECT_EQ(defaults.texture.kind, TextureKind::none);
     EXPECT_EQ(fill_after("f 0 0 0 0 0 0 0 0 material"), defaults);
 
     const Fill all =
-        fill_after("material ior 1.25 transmit 0.7 mirror 0.6 shine 5e5 highlight 0.4 diffuse 0.3 "
+        fill_after("material emission 64 ior 1.25 transmit 0.7 mirror 0.6 shine 5e5 highlight 0.4 diffuse 0.3 "
                    "ambient 0.2 colour 0.1 0 1");
     expect_vector(all.colour, 0.1, 0, 1);
     EXPECT_EQ(all.ambient, 0.2);
@@ -261,6 +262,7 @@ TEST(Parser, MaterialNamesWhatDiffersFromTheDefaults) {
     EXPECT_EQ(all.mirror, 0.6);
     EXPECT_EQ(all.transmit, 0.7);
     EXPECT_EQ(all.ior, 1.25);
+    EXPECT_EQ(all.emission, 64);
 
     const Fill one = fill_after("material colour 0 0 0 mirror 1 material diffuse 0.5");
     expect_vector(one.colour, 1, 1, 1);
@@ -518,7 +520,7 @@ TEST(ParserError, Structure) {
         {VIEW "@\"s\"", "unknown entity '\"s\"'"},
         {VIEW "material\n\n@colours",
          "unknown word 'colours' in 'material'; did you mean 'colour'? expected one of colour ambient diffuse "
-         "highlight shine mirror transmit ior, or an entity"},
+         "highlight shine mirror transmit ior emission, or an entity"},
         {VIEW "material colour 1 1 1 @Defuse 1", "did you mean 'diffuse'? expected one of colour ambient"},
         {VIEW "material @color 1 0 0", "did you mean 'colour'?"},
         {VIEW "material @trasnmit 1", "did you mean 'transmit'?"},
@@ -701,6 +703,7 @@ TEST(ParserError, Ranges) {
         {"material shine @1e7", "'shine' is 1e7; expected a number from 0 to 1e6"},
         {"material mirror @2", "'mirror' is 2; expected a number from 0 to 1"},
         {"material transmit @2", "'transmit' is 2; expected a number from 0 to 1"},
+        {"material emission @64.5", "'emission' is 64.5; expected a number from 0 to 64"},
         {"material ior @9", "'ior' is 9; expected a number from 0.125 to 8"},
         {"texture checker 1 @-1 1 1",
          "green of the colour of a texture is -1; expected a number from 0 to 1"},

@@ -231,7 +231,10 @@ private:
     // Colours are divided by 2^exposure so that no sum of lights leaves the range of Colour.
     void lights()
     {
-        Vec3d sum = d.ambient;
+        double emission = 0;
+        for (uint32_t i = 0; i < d.fill_count; i++)
+            emission = fmax(emission, d.fills[i].emission);
+        Vec3d sum = d.ambient + grey(emission);
         for (uint32_t i = 0; i < d.light_count; i++)
             sum = sum + d.lights[i].colour * 2;
         s.exposure = 0;
@@ -270,13 +273,14 @@ private:
     static constexpr double range = 7.99;
 
     Rgb<N> colour(const Vec3d& c) const { return Convert<N>::rgb(c * ldexp(1, -s.exposure)); }
+    static Vec3d grey(double v) { return {v, v, v}; }
     static Vec<typename N::Unit> surface(const Vec3d& c) { return Convert<N>::direction(c); }
 
     void materials()
     {
         for (uint32_t i = 0; i < d.fill_count; i++) {
             const Fill& f = d.fills[i];
-            s.mattes.push() = {surface(f.colour), colour(d.ambient * f.ambient), Convert<N>::unit(f.diffuse)};
+            s.mattes.push() = {surface(f.colour), colour(d.ambient * f.ambient + grey(f.emission)), Convert<N>::unit(f.diffuse)};
             s.highlights.push() = {Convert<N>::unit(f.highlight), Convert<N>::shine(f.shine)};
             s.mirrors.push() = {Convert<N>::unit(f.mirror)};
             s.transmits.push() = {Convert<N>::unit(f.transmit), Convert<N>::eta(1 / f.ior), Convert<N>::eta(f.ior)};

@@ -51,7 +51,7 @@ struct Texture {
 
 struct Fill {
     Vec3d colour{1, 1, 1};
-    double ambient = 1, diffuse = 1, highlight = 0, shine = 1, mirror = 0, transmit = 0;
+    double ambient = 1, diffuse = 1, highlight = 0, shine = 1, mirror = 0, transmit = 0, emission = 0;
     double ior = 1; // <= 0 in the text reads as 1
     Texture texture;
     friend bool operator==(const Fill&, const Fill&) = default;

@@ -25,7 +25,7 @@ constexpr const char* fields_of(std::string_view table)
 #undef QRAY_FIELDS
         {"vertices", "corners of polygons and patches"},
         {"normals", "shading normals, as many as vertices"},
-        {"mattes", "by material: colour; ambient light; diffuse"},
+        {"mattes", "by material: colour; ambient light and emission; diffuse"},
         {"highlights", "by material: amount; shine: whole, fraction"},
         {"mirrors", "by material: amount"},
         {"transmits", "by material: amount; 1 / index of refraction, index"},

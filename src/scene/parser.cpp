@@ -38,6 +38,7 @@ constexpr MaterialWord material_words[] = {
     {"'mirror'", &Fill::mirror, &share_range},
     {"'transmit'", &Fill::transmit, &share_range},
     {"'ior'", &Fill::ior, &ior_range},
+    {"'emission'", &Fill::emission, &light_range},
 };
 
 constexpr struct {

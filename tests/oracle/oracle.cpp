@@ -97,7 +97,7 @@ enum class Tex { None, Checker, Stripes, Gradient, Rings, Noise, Marble, Wood, B
 
 struct Material {
     Vec colour{1, 1, 1};
-    Real ambient = 1, diffuse = 1, highlight = 0, shine = 1, mirror = 0, transmit = 0, ior = 1;
+    Real ambient = 1, diffuse = 1, highlight = 0, shine = 1, mirror = 0, transmit = 0, ior = 1, emission = 0;
     Tex tex = Tex::None;
     Vec tex_colour, axis{0, 1, 0};
     Real size = 1;
@@ -414,7 +414,7 @@ void read_scene(Reader& in, Scene& s) {
                 Real* field = name == "ambient" ? &fill.ambient : name == "diffuse" ? &fill.diffuse :
                     name == "highlight" ? &fill.highlight : name == "shine" ? &fill.shine :
                     name == "mirror" ? &fill.mirror : name == "transmit" ? &fill.transmit :
-                    name == "ior" ? &fill.ior : nullptr;
+                    name == "ior" ? &fill.ior : name == "emission" ? &fill.emission : nullptr;
                 if (!field) break;
                 ++in.i, *field = in.real();
             }
@@ -822,7 +822,7 @@ Vec trace(const Scene& s, const Settings& set, const Ray& ray, int depth, Real w
     if (dot(n, d) > 0) n = -n;
     Vec base = surface_colour(s, m, q);
 
-    Vec sum = m.ambient * times(base, s.ambient);
+    Vec sum = m.emission * base + m.ambient * times(base, s.ambient);
     for (const Light& light : s.lights) {
         Vec to = light.sun ? light.at : light.at - q;
         Real distance = light.sun ? infinity : length(to);

@@ -9,7 +9,7 @@ namespace qray {
 template <class N>
 struct Matte {
     Vec<typename N::Unit> colour; // M, unless a texture gives it
-    Rgb<N> ambient;               // the ambient light times the coefficient
+    Rgb<N> ambient;               // what no light gives: the ambient light times the coefficient, and emission
     typename N::Unit diffuse;
 };
 
