@@ -22,10 +22,10 @@ scene::Storage<N>& storage()
 
 // Parses and builds into storage<N>().
 template <class N>
-::testing::AssertionResult loaded(const std::string& text, const scene::Settings& settings = {})
+::testing::AssertionResult loaded(const std::string& text, const scene::Settings& settings = {}, const scene::Files* files = nullptr)
 {
     scene::Error error;
-    if (!parse("test.nff", text.data(), text.size(), description(), error)
+    if (!parse("test.nff", text.data(), text.size(), description(), error, files)
         || !scene::Builder<N>(description(), settings, storage<N>()).build(error))
         return ::testing::AssertionFailure() << error.text;
     return ::testing::AssertionSuccess();

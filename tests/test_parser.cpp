@@ -744,8 +744,8 @@ TEST(ParserError, Shapes) {
         {VIEW "texture gradient 0 0 0 1 @0 0 0", "the axis of a texture is zero"},
         {VIEW "texture marble 0 0 0 1 @0 0 0", "the axis of a texture is zero"},
         {VIEW "texture wood 0 0 0 1 @0 0 0", "the axis of a texture is zero"},
-        {VIEW "texture @image a.bmp 0 0 0 1 0 0 0 1 0", "'image' and 'globe' are not supported yet"},
-        {VIEW "texture @globe a.bmp 0 0 0", "'image' and 'globe' are not supported yet"},
+        {VIEW "texture globe @a.bmp 0 0 0", "cannot read 'a.bmp': the scene has no folder; expected an image"},
+        {VIEW "texture image@", "the file ends where an image, BMP or PPM was expected"},
         {VIEW "texture @tartan 0 0 0 1", "expected a texture (checker "}, // and all others
         {VIEW "texture @tartan 0 0 0 1", "), found 'tartan'"},
         {VIEW "texture @marbel 0 0 0 1",

@@ -86,16 +86,17 @@ int describe()
         printf("%s\"%s\"", before, e.name);
         before = ", ";
     }
-    // An object of each shape that the text has, and a place on it; each texture, and whether it has an axis.
+    // An object of each shape that the text has, and a place on it; each texture, and what stands behind its name.
     before = "],\n\"shapes\": {";
 #define QRAY_SHAPE(Type, name, table) \
     if (const auto& example = scene::Host<Type>::example; example[0] != nullptr) \
         printf("%s\"" #name "\": [\"%s\", \"%s\"]", std::exchange(before, ",\n    "), example[0], example[1]);
     QRAY_SHAPES(QRAY_SHAPE)
 #undef QRAY_SHAPE
+    constexpr const char* texts[] = {"1 0 0 0.3", "1 0 0 0.3 1 2 0", "image.ppm 0 0 0 1 0 0 0 1 0", "image.ppm 0 0 0"};
     before = "},\n\"textures\": {";
 #define QRAY_TEXTURE(Type, name, table) \
-    printf("%s\"" #name "\": %s", before, Type<Double>::has_axis ? "true" : "false"); \
+    printf("%s\"" #name "\": \"%s\"", before, texts[static_cast<int>(Type<Double>::text)]); \
     before = ", ";
     QRAY_TEXTURES(QRAY_TEXTURE)
 #undef QRAY_TEXTURE

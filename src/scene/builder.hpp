@@ -3,6 +3,9 @@
 #pragma once
 
 #include <stdio.h>
+#include <string.h>
+
+#include <utility>
 
 #include "flatten.hpp"
 #include "lean.hpp"
@@ -31,6 +34,7 @@ public:
         }
         s.vanished = 0;
         s.lost = {};
+        images();
         fit();
         if (!fine_enough(error))
             return false;
@@ -159,7 +163,7 @@ private:
             }
             for (uint32_t i = 0; i < d.fill_count; i++)
                 if (const Texture& t = d.fills[i].texture;
-                    t.kind != TextureKind::none && t.size < Limits::narrow_cell * step) {
+                    t.kind != TextureKind::none && t.kind != TextureKind::globe && t.size < Limits::narrow_cell * step) {
                     snprintf(error.text, sizeof error.text,
                              "q16 has lengths in steps of %.3g here, and a texture's size of %.3g is less than "
                              "1/%.0f of one; expected a larger one, or another number system",
@@ -228,6 +232,20 @@ private:
         }
     }
 
+    // What may stand far outside: in units of 2^shift lengths.
+    struct FarPoint {
+        Vec3d at;
+        int shift;
+    };
+    static FarPoint far_point(Vec3d at)
+    {
+        int shift = 0;
+        if constexpr (N::is_fixed)
+            for (; (NarrowFixed<N> ? scene::length(at) : largest(at)) > world; at = at * 0.5)
+                shift++;
+        return {at, shift};
+    }
+
     // Colours are divided by 2^exposure so that no sum of lights leaves the range of Colour.
     void lights()
     {
@@ -248,11 +266,7 @@ private:
                 s.suns.push() = {Convert<N>::direction(unit(l.at)), colour(l.colour)};
                 continue;
             }
-            Vec3d at = frame.point(l.at);
-            int shift = 0;
-            if constexpr (N::is_fixed)
-                for (; (NarrowFixed<N> ? scene::length(at) : largest(at)) > world; at = at * 0.5)
-                    shift++;
+            auto [at, shift] = far_point(frame.point(l.at));
             // So far away that it is a sun; in float, its square would be infinite.
             if (shift > 30 || (is_float && largest(at) > 0x1p60)) {
                 s.suns.push() = {Convert<N>::direction(unit(at)), colour(l.colour)};
@@ -288,10 +302,49 @@ private:
         }
     }
 
+    Texels<N> texels[Limits::images];
+
+    // The bytes of all images: an index a texel where there are at most 256 colours and that is shorter, which stand behind
+    // them, else all three.
+    void images()
+    {
+        for (uint32_t i = 0; i < d.image_count; i++) {
+            const ImageSource& from = d.images[i];
+            const uint8_t* const rgb = d.image_bytes.room.at + from.first;
+            uint8_t* const to = s.texels.data + s.texels.count;
+            const uint32_t size = from.width * from.height;
+            uint32_t colours = 0, keys[1024] = {}; // a colour's number stands at its hash, or at the next place that was free
+            uint8_t numbers[1024];
+            for (uint32_t k = 0; k < size && colours <= 256; k++) {
+                const uint32_t key = 1 + (uint32_t{rgb[3 * k]} | uint32_t{rgb[3 * k + 1]} << 8 | uint32_t{rgb[3 * k + 2]} << 16);
+                uint32_t at = key * 0x9e3779b1u >> 22;
+                while (keys[at] != 0 && keys[at] != key)
+                    at = (at + 1) & 1023;
+                if (keys[at] == 0) {
+                    keys[at] = key;
+                    numbers[at] = static_cast<uint8_t>(colours++);
+                }
+                to[k] = numbers[at];
+            }
+            const bool indexed = colours <= 256 && size + 3 * colours < 3 * size;
+            if (indexed) {
+                for (uint32_t at = 0; at < 1024; at++)
+                    for (uint32_t c = 0; keys[at] != 0 && c < 3; c++)
+                        to[size + 3 * numbers[at] + c] = static_cast<uint8_t>((keys[at] - 1) >> 8 * c);
+            } else {
+                memcpy(to, rgb, 3 * size_t{size});
+            }
+            s.texels.count += indexed ? size + 3 * colours : 3 * size;
+            texels[i] = {to, indexed ? to + size : nullptr, static_cast<uint16_t>(from.width),
+                         static_cast<uint16_t>(from.height)};
+        }
+    }
+
     // The coordinates of a texture, in its own size: see the textures' headers.
     struct Make {
         const Texture& t;
         const Frame& frame;
+        const Texels<N>* images;
         // What keeps a surface in a plane of the lattice clean: not less than a hit may lie off its surface.
         double epsilon() const
         {
@@ -323,12 +376,29 @@ private:
         }
         LatticeAxis<N> along_x() const { return axis({1, 0, 0}, 0, false); }
         LatticeAxis<N> along_z() const { return axis({0, 0, 1}, 0, false); }
+
+        Texels<N> texels() const { return images[t.image]; }
+        LatticeAxis<N> along_edge(int which) const
+        {
+            const Vec3d& edge = which == 0 ? t.u : t.v;
+            const double length = scene::length(edge);
+            const Vec3d row = edge * (1 / length) * (1 / length);
+            return Convert<N>::axis(row, frame.origin, frame.scale, -dot(row, t.at), true);
+        }
+        // Farther away than any light that is not a sun, only its direction tells.
+        auto centre() const
+        {
+            Vec3d at = frame.point(t.at);
+            at = at * fmin(1, ldexp(world, 30) / fmax(largest(at), 1));
+            const FarPoint far = far_point(at);
+            return std::pair(Convert<N>::point(far.at), int32_t{far.shift});
+        }
     };
 
     TextureRef texture(const Texture& t)
     {
         const auto push = [&t, this](auto& table) {
-            table.push() = std::remove_reference_t<decltype(*table.data)>::made(Make{t, frame});
+            table.push() = std::remove_reference_t<decltype(*table.data)>::made(Make{t, frame, texels});
             return TextureRef{t.kind, static_cast<uint16_t>(table.count - 1)};
         };
         switch (t.kind) {

@@ -31,6 +31,9 @@ struct Limits {
     static constexpr uint32_t lights = 64;
     static constexpr uint32_t resolution = 32'768;  // pixels along either edge
     static constexpr uint32_t text = 256u << 20;    // bytes of scene text, and of a mesh's file
+    static constexpr uint32_t images = 64;          // different files
+    static constexpr uint32_t image_size = 16'384;  // texels along either edge
+    static constexpr uint32_t image_bytes = 64u << 20; // of all of them
     static constexpr double narrow_radius = 256;      // of a scene, least, in steps of q16
     static constexpr double narrow_cell = 1.0 / 4096; // of a texture, likewise
 };
@@ -46,6 +49,9 @@ struct Texture {
     Vec3d colour;    // N, the texture's own colour
     double size = 1; // > 0
     Vec3d axis;      // as given, not normalised, of those that have one; else zero
+    Vec3d at;        // an image's corner, a globe's centre
+    Vec3d u, v;      // edges of an image; its size is the shorter
+    uint32_t image = 0; // index into images
     friend bool operator==(const Texture&, const Texture&) = default;
 };
 
@@ -61,6 +67,11 @@ struct LightSource {
     bool sun = false;
     Vec3d at;     // position, or for a sun the direction it shines from (not normalised)
     Vec3d colour; // resolved: 1/sqrt(n) where the text gave none
+};
+
+struct ImageSource {
+    size_t first; // of its bytes among all: red, green and blue, row by row from the bottom
+    uint32_t width, height;
 };
 
 struct Object {
@@ -123,6 +134,9 @@ struct Description {
     Fill* fills = nullptr;
     LightSource lights[Limits::lights];
     uint32_t most_objects = 0, most_vertices = 0; // as many as the arrays hold
+    uint32_t image_count = 0;
+    ImageSource images[Limits::images + 1]; // the last while it is read
+    Bytes image_bytes; // in a room of its own
 
     // Cuts arrays for so many, and as many fills as objects, from the room where it is large enough; returns how many
     // bytes it must have.

@@ -30,6 +30,9 @@ constexpr const char* fields_of(std::string_view table)
         {"mirrors", "by material: amount"},
         {"transmits", "by material: amount; 1 / index of refraction, index"},
         {"textures", "by material: kind; index into the table of that kind"},
+        {"texels", "bytes of images: an index a texel, with their colours behind them, or red, green, blue"},
+        {"images", "coordinates along u, v; texels, their colours, width, height"},
+        {"globes", "centre / 2^shift; shift; texels, their colours, width, height"},
         {"lights", "place / 2^shift; shift; colour"},
         {"suns", "direction towards it; colour"},
         {"entries", "boxes, a tree in preorder: middle; half; link"},
@@ -114,10 +117,11 @@ private:
         effects();
         for_each_table(s, e, [this](const auto& array, const char* type, const char* name) {
             out.print("\n// %s\ninline constexpr qray::%s<Number> %s[] = {\n", fields_of(name), type, name);
+            constexpr uint32_t in_line = sizeof array.data[0] == 1 ? 24 : 1;
             for (uint32_t i = 0; i < array.count; i++) {
-                out.put("    ");
+                out.put(i % in_line == 0 ? "    " : " ");
                 value(array.data[i]);
-                out.put(",\n");
+                out.put((i + 1) % in_line == 0 || i + 1 == array.count ? ",\n" : ",");
             }
             out.put("};\n");
         });
@@ -196,6 +200,13 @@ private:
     }
 
     void value(std::integral auto v) { out.number(int64_t{v}); }
+    void value(const uint8_t* v)
+    {
+        if (v == nullptr)
+            out.put("nullptr");
+        else
+            out.print("texels + %u", static_cast<unsigned>(v - s.texels.data));
+    }
     void value(bool v) { out.put(v ? "true" : "false"); }
     void value(float v) { out.number(v); }
     void value(double v) { out.number(v); }

@@ -1,4 +1,5 @@
 // The grammar of the scene language, entity by entity, and all its checks.
+#include "image.hpp"
 #include "members.hpp"
 #include "obj.hpp"
 #include "shapes.hpp"
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstring>
 #include <span>
 #include <string_view>
 
@@ -44,9 +46,9 @@ constexpr MaterialWord material_words[] = {
 constexpr struct {
     std::string_view word;
     TextureKind kind;
-    bool has_axis;
+    TextureText text;
 } texture_words[] = {
-#define QRAY_WORD(Type, name, table) {#name, TextureKind::name, Type<Double>::has_axis},
+#define QRAY_WORD(Type, name, table) {#name, TextureKind::name, Type<Double>::text},
     QRAY_TEXTURES(QRAY_WORD)
 #undef QRAY_WORD
 };
@@ -138,6 +140,7 @@ private:
     uint16_t numbers[2 * Limits::materials] = {};
     bool light_is_default[Limits::lights] = {};
     char path[4096]; // of the latest file beside the scene
+    std::string_view image_names[Limits::images];
 
     // What is no object; objects are read by their hosts.
     struct Statement {
@@ -341,8 +344,6 @@ private:
     bool texture()
     {
         token = lexer.next();
-        if (token.text == "image" || token.text == "globe")
-            return fail(token.at, "the image textures 'image' and 'globe' are not supported yet");
         Words words(token.text);
         for (const auto& known : texture_words) {
             words.add(known.word);
@@ -352,9 +353,15 @@ private:
             t = {};
             t.kind = known.kind;
             current_index = none;
+            if (known.text == TextureText::image)
+                return image(t.image) && point("the corner of an image", t.at)
+                    && direction("u of an image", t.u) && direction("v of an image", t.v)
+                    && (t.size = std::min(length(t.u), length(t.v)), true);
+            if (known.text == TextureText::globe)
+                return image(t.image) && point("the centre of a globe", t.at);
             return colour("the colour of a texture", share_range, t.colour)
                 && number("the size of a texture", size_range, t.size)
-                && (!known.has_axis || direction("the axis of a texture", t.axis));
+                && (known.text == TextureText::cells || direction("the axis of a texture", t.axis));
         }
         if (token.kind == TokenKind::word && words.meant[0] != 0)
             return fail(token.at, "unknown texture '%s'; %sexpected one of %s", Shown(token.text).text, words.meant,
@@ -362,6 +369,44 @@ private:
         char what[200];
         snprintf(what, sizeof what, "a texture (%s)", words.text);
         return expected("", what);
+    }
+
+    // Once for each file, and for all that hold the same.
+    bool image(uint32_t& index)
+    {
+        const std::string_view file_name = lexer.next().text;
+        lexer.unread();
+        for (index = 0; index < out.image_count; index++)
+            if (image_names[index] == file_name) {
+                lexer.next();
+                return true;
+            }
+        Bytes& all = out.image_bytes;
+        ImageSource& found = out.images[index];
+        found.first = all.size;
+        std::string_view contents;
+        if (!file("an image, BMP or PPM", Limits::image_bytes, all, contents))
+            return false;
+        char fault[100];
+        if (!decode_image(all.room.at + found.first, contents.size(), found, fault))
+            return fail(token.at, "'%s' %s; expected a BMP of 24 bits a pixel or a binary PPM", Shown(token.text).text, fault);
+        const size_t bytes = 3 * size_t{found.width} * found.height;
+        all.size = found.first + bytes;
+        for (uint32_t i = 0; i < out.image_count; i++)
+            if (const ImageSource& other = out.images[i];
+                found.width == other.width && found.height == other.height
+                && memcmp(all.room.at + found.first, all.room.at + other.first, bytes) == 0) {
+                all.size = found.first;
+                index = i;
+                return true;
+            }
+        if (index == Limits::images)
+            return fail(token.at, "too many images; expected at most %u (limit 'images')", Limits::images);
+        if (all.size > Limits::image_bytes)
+            return fail(token.at, "images of %zu bytes; expected at most %u of all (limit 'image_bytes')", all.size,
+                        Limits::image_bytes);
+        image_names[out.image_count++] = file_name;
+        return true;
     }
 
     bool use_fill(uint32_t& index)
@@ -546,10 +591,11 @@ private:
 
 bool parse(const char* name, const char* text, size_t size, Description& out, Error& error, const Files* files)
 {
-    const Room room = out.room, beside = out.files.room;
+    const Room room = out.room, beside = out.files.room, images = out.image_bytes.room;
     out = {};
     out.room = room;
     out.files.room = beside;
+    out.image_bytes.room = images;
     error.text[0] = 0;
     return Parser(name, text, size, out, error, files).parse();
 }

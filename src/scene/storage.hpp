@@ -97,6 +97,7 @@ struct Storage {
             cut(sorted, d.object_count);
             cut(mattes, d.fill_count);
             cut(textures, d.fill_count);
+            cut(texels, static_cast<uint32_t>(d.image_bytes.size));
 #define QRAY_CUT(Type, name, table) cut(table, d.fill_count);
             QRAY_SURFACES(QRAY_CUT)
             QRAY_TEXTURES(QRAY_CUT)

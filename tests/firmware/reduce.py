@@ -41,7 +41,7 @@ def bare(head, body):
         return f"{head} {{\n{''.join(bare(*s) + chr(10) for s in statements(body))}}}"
     after_template = re.sub(r"^(template\s*<[^;{]*?>\s*(requires\s*(\([^)]*\)|[\w:]+)\s*)?)*", "", head)
     if re.match(r"(struct|class|enum)\b", after_template):
-        told = "".join(f"{s};" for s, _ in statements(body) if s.startswith("static constexpr bool"))
+        told = "".join(f"{s};" for s, _ in statements(body) if re.match(r"static constexpr (bool|TextureText)\b", s))
         return f"{head}{{{told}}};" if told else f"{head};"
     if ")" in after_template:
         return head.replace("QRAY_NOINLINE ", "") + ";"  # of which a compiler warns where there is no body

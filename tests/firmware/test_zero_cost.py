@@ -19,7 +19,7 @@ import elf  # noqa: E402
 import reduce  # noqa: E402
 
 TOLD = json.loads(subprocess.run(["build/qray", "--describe"], stdout=subprocess.PIPE, check=True).stdout)
-SHAPE, TEXTURE = TOLD["shapes"], TOLD["textures"]  # {name: (text, a place on it)}, {name: has it an axis?}
+SHAPE, TEXTURE = TOLD["shapes"], TOLD["textures"]  # {name: (text, a place on it)}, {name: what stands behind its name}
 VIEW = "v from %s at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 8 6\n"
 LIGHT = {"light": "l 3 4 5\n", "sun": "sun 1 2 3\n"}
 MATERIAL = {
@@ -47,14 +47,16 @@ def scene(absent):
     eye = "0 0 5" if "eye_surface" in absent else places[0]
     text = VIEW % eye + "".join(lights) + ("shadows off\n" if "shadow" in absent else "")
     text += "material colour 0.5 0.6 0.7 diffuse 0.5 " + " ".join(parts) + "\n" + "\n".join(shapes) + "\n"
-    for name, has_axis in TEXTURE.items():
+    for name, numbers in TEXTURE.items():
         if name not in absent:
-            text += f"material colour 0 0 1 texture {name} 1 0 0 0.3 {'1 2 0' * has_axis}\n{shapes[0]}\n"
+            text += f"material colour 0 0 1 texture {name} {numbers}\n{shapes[0]}\n"
     return text
 
 
 def compile_scene(name, absent, include):
     """Of the tracer's object file what ends in memory, by section, and the names in it; or make's output."""
+    with open(f"{FOLDER}/image.ppm", "wb") as file:
+        file.write(b"P6 2 2 255\n" + bytes(range(12)))
     with open(f"{FOLDER}/{name}.nff", "w") as file:
         file.write(scene(absent))
     path = f"build/microbit/zero_{name}-q32.obj/main.o"

@@ -160,14 +160,14 @@ private:
         if (random.chance(0.3)) {
             struct Named {
                 const char* name;
-                bool has_axis;
+                qray::TextureText text;
             };
-#define QRAY_NAMED(Type, name, table) {#name, qray::Type<qray::Float>::has_axis},
+#define QRAY_NAMED(Type, name, table) {#name, qray::Type<qray::Float>::text},
             constexpr Named textures[] = {QRAY_TEXTURES(QRAY_NAMED)};
 #undef QRAY_NAMED
-            const Named& t = textures[random.below(std::size(textures))];
-            s += "texture " + std::string(t.name) + " " + colour(1) + " " + number(std::fabs(coordinate()) + 1e-50)
-                + (t.has_axis ? " " + direction() : "") + "\n";
+            if (const Named& t = textures[random.below(std::size(textures))]; !qray::has_texels(t.text))
+                s += "texture " + std::string(t.name) + " " + colour(1) + " " + number(std::fabs(coordinate()) + 1e-50)
+                    + (t.text == qray::TextureText::cells_along ? " " + direction() : "") + "\n";
         }
     }
     void object()

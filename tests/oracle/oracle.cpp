@@ -259,10 +259,13 @@ Image read_image(const std::string& path) {
     m.width = field(), m.height = field();
     int top = field();
     size_t w = static_cast<size_t>(m.width), rows = static_cast<size_t>(m.height);
-    if (top != 255 || d.size() < at + 1 + 3 * w * rows) fail("not an 8-bit PPM: " + path);
+    if (top < 1 || top > 255 || d.size() < at + 1 + 3 * w * rows) fail("not an 8-bit PPM: " + path);
     m.rgb.resize(3 * w * rows);
     for (size_t y = 0; y < rows; ++y)
-        std::memcpy(&m.rgb[3 * w * y], &d[at + 1 + 3 * w * (rows - 1 - y)], 3 * w);
+        for (size_t x = 0; x < 3 * w; ++x) {
+            int v = std::min<int>(top, d[at + 1 + 3 * w * (rows - 1 - y) + x]);
+            m.rgb[3 * w * y + x] = static_cast<uint8_t>(std::floor(255.0 * v / top + 0.5));
+        }
     return m;
 }
 

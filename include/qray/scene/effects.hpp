@@ -24,6 +24,9 @@ struct Effects {
 #define QRAY_ANY(Type, name, table) || (name && Type<Float>::is_smooth)
     constexpr bool smooth() const { return false QRAY_SHAPES(QRAY_ANY); }
 #undef QRAY_ANY
+#define QRAY_ANY(Type, name, table) || (name && has_texels(Type<Float>::text))
+    constexpr bool texels() const { return false QRAY_TEXTURES(QRAY_ANY); }
+#undef QRAY_ANY
     constexpr bool spawns() const { return mirror || transmit; }
     constexpr bool transmits() const { return transmit || see_through; }
     constexpr bool always() const { return true; }

@@ -20,7 +20,9 @@
 #include "../surface/transmit.hpp"
 #include "../texture/brick.hpp"
 #include "../texture/checker.hpp"
+#include "../texture/globe.hpp"
 #include "../texture/gradient.hpp"
+#include "../texture/image.hpp"
 #include "../texture/marble.hpp"
 #include "../texture/noise.hpp"
 #include "../texture/rings.hpp"
@@ -45,7 +47,9 @@
     X(Noise, noise, noises) \
     X(Marble, marble, marbles) \
     X(Wood, wood, woods) \
-    X(Brick, brick, bricks)
+    X(Brick, brick, bricks) \
+    X(Image, image, images) \
+    X(Globe, globe, globes)
 
 #define QRAY_LIGHTS(X) \
     X(Light, light, lights) \
@@ -83,6 +87,7 @@
     X(Matte, always(), mattes) \
     QRAY_SURFACES(X) \
     X(TextureOf, texture(), textures) /* by material */ \
+    X(Texel, texels(), texels) \
     QRAY_TEXTURES(X) \
     QRAY_LIGHTS(X) \
     X(LightSurface, light_surface, light_surfaces) \

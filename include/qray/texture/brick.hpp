@@ -7,7 +7,7 @@ namespace qray {
 
 template <class N>
 struct Brick {
-    static constexpr bool has_axis = false;
+    static constexpr TextureText text = TextureText::cells;
 
     Vec<typename N::Unit> colour; // N, the mortar
     Lattice<N> lattice;           // y counts courses, two to a cell; offsets hold epsilon

@@ -7,7 +7,7 @@ namespace qray {
 
 template <class N>
 struct Gradient {
-    static constexpr bool has_axis = true;
+    static constexpr TextureText text = TextureText::cells_along;
 
     Vec<typename N::Unit> colour; // N
     LatticeAxis<N> axis;

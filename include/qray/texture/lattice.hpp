@@ -6,6 +6,7 @@
 #pragma once
 
 #include "../vector/ray.hpp"
+#include "texels.hpp"
 
 namespace qray {
 

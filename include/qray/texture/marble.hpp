@@ -15,7 +15,7 @@ constexpr Cell<N> twice(const Cell<N>& c)
 
 template <class N>
 struct Marble {
-    static constexpr bool has_axis = true;
+    static constexpr TextureText text = TextureText::cells_along;
 
     Vec<typename N::Unit> colour; // N
     Lattice<N> lattice;

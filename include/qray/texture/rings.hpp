@@ -7,7 +7,7 @@ namespace qray {
 
 template <class N>
 struct Rings {
-    static constexpr bool has_axis = false;
+    static constexpr TextureText text = TextureText::cells;
 
     Vec<typename N::Unit> colour; // N
     LatticeAxis<N> x, z;

@@ -7,7 +7,7 @@ namespace qray {
 
 template <class N>
 struct Stripes {
-    static constexpr bool has_axis = true;
+    static constexpr TextureText text = TextureText::cells_along;
 
     Vec<typename N::Unit> colour; // N
     LatticeAxis<N> axis;          // offset holds epsilon
