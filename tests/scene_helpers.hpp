@@ -48,7 +48,7 @@ namespace qray {
 #endif
 #define QRAY_FOR(N) \
     QRAY_ONCE template class scene::Builder<N>; \
-    QRAY_ONCE template Rgb<N> trace(const Scene<N, everything(scene::Settings::max_depth)>&, Ray<N>, test::RayCount&)
+    QRAY_ONCE template Rgb<N> trace(const Scene<N, everything(scene::Settings::max_depth)>&, Ray<N>, test::RayCount&, EyeSample)
 QRAY_FOR(q16);
 QRAY_FOR(q32);
 QRAY_FOR(Float);
@@ -66,10 +66,9 @@ Vec3 light_at(uint32_t i, uint32_t j, RayCount* count = nullptr)
 {
     const Scene<N, E> s = storage<N>().template view<E>();
     const Camera<N>& c = s.camera;
-    const auto at =
-        c.row(2 * static_cast<int32_t>(j) + 1 - c.height) + c.right * (2 * static_cast<int32_t>(i) + 1 - c.width);
+    const int32_t x = 2 * static_cast<int32_t>(i) + 1 - c.width, y = 2 * static_cast<int32_t>(j) + 1 - c.height;
     RayCount counted;
-    const auto light = trace(s, eye_ray(s, at), counted);
+    const auto light = trace(s, eye_ray(s, c.row(y) + c.right * x), counted, eye_sample(c, x, y, 1));
     if (count != nullptr)
         *count = counted;
     return value(light) * std::ldexp(1, s.exposure);

@@ -176,7 +176,8 @@ class Options(Cli):
             found = dict(re.fullmatch(r"([a-z_/]+): (.*)", line).groups() for line in err.splitlines())
             for name, value in {"scene": "s.nff", "title": "A mirror # in the light", "objects": "3", "spheres": "1",
                                 "polygons": "1", "cones": "1", "patches": "0", "planes": "0", "discs": "0",
-                                "vertices": "4", "materials": "1", "lights": "1", "suns": "1", "dropped": "1",
+                                "vertices": "4", "materials": "1", "lights": "1", "suns": "1", "panels": "0",
+                                "dropped": "1",
                                 "vanished": "0", "number": number, "width": "8", "height": "6", "samples": "4",
                                 "depth": "5", "cutoff": "0.0014", "threads": "2", "camera_rays": "192",
                                 "shadow_rays": "384", "mirrored_rays": "192", "refracted_rays": "0",

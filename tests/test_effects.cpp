@@ -32,9 +32,10 @@ TEST(Effects, AreInTheListOfTheirKind)
     for (bool Effects::* shape : {&Effects::sphere, &Effects::disc, &Effects::cone, &Effects::polygon, &Effects::patch})
         EXPECT_EQ(holds(shapes, shape), 1);
     for (bool Effects::* texture : {&Effects::checker, &Effects::stripes, &Effects::gradient, &Effects::rings,
-                                    &Effects::noise, &Effects::marble, &Effects::wood, &Effects::brick})
+                                    &Effects::noise, &Effects::marble, &Effects::wood, &Effects::brick,
+                                    &Effects::image, &Effects::globe})
         EXPECT_EQ(holds(textures, texture), 1);
-    for (bool Effects::* light : {&Effects::light, &Effects::sun})
+    for (bool Effects::* light : {&Effects::light, &Effects::sun, &Effects::panel})
         EXPECT_EQ(holds(lights, light), 1);
     for (bool Effects::* other : {&Effects::shadow, &Effects::see_through, &Effects::highlight,
                                   &Effects::fractional_shine, &Effects::mirror, &Effects::transmit,

@@ -69,7 +69,7 @@ TEST(Bounds, LightTooFarForASquareInFloatIsSeen)
     ASSERT_TRUE(scene::Builder<Float>(description, {}, storage).build(error)) << error.text;
     const auto s = storage.view<everything(6)>();
     CountRays rays;
-    EXPECT_NEAR(trace(s, s.camera.ray(s.camera.row(0)), rays).x, 0.3f, 1e-6f);
+    EXPECT_NEAR(trace(s, s.camera.ray(s.camera.row(0)), rays, EyeSample{}).x, 0.3f, 1e-6f);
 }
 
 } // namespace

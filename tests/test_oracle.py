@@ -28,6 +28,7 @@ FLOAT_IS_CLOSER = {
 
 OPTIONS = [["-d", "1"], ["-d", "12", "--cutoff", "0"], ["--cutoff", "0.1"], ["-r", "4"], ["-r", "9"], ["-a", "2"],
            ["-a", "4,0.02"]]
+SAMPLED_SCENES = ["scenes/soft.nff", "scenes/images.nff"]  # with 4 samples, and adaptively
 OPTION_SCENES = ["scenes/showcase.nff", "scenes/glass.nff", "tests/scenes/touching.nff"]
 
 results = []
@@ -154,6 +155,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
         jobs = [pool.submit(test_scene, folder, scene) for scene in scenes]
         others = [pool.submit(test_options, folder, scene, options) for scene in OPTION_SCENES for options in OPTIONS]
+        others += [pool.submit(test_options, folder, scene, options) for scene in SAMPLED_SCENES for options in (["-r", "4"], ["-a", "2"])]
         decibels = [job.result() for job in jobs]
         for job in others:
             job.result()

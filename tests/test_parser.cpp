@@ -218,6 +218,17 @@ TEST(Parser, LightsWithoutColourShareOne) {
     expect_vector(scene.lights[2].at, 0, 0, -2);
     expect_vector(scene.lights[2].colour, 0.5, 0.5, 0.5);
     expect_vector(scene.lights[3].colour, 0.5, 0.5, 0.5);
+    // A panel counts as one.
+    ASSERT_PARSES(view + "panel 3 1 2 3 4 0 0 0 0 -5 l 0 0 0 sun 0 1 0 panel 16 0 0 0 0 0 0 0 0 1 1 2 3");
+    ASSERT_EQ(scene.light_count, 4u);
+    EXPECT_EQ(scene.lights[0].places, 3u);
+    expect_vector(scene.lights[0].at, 1, 2, 3);
+    expect_vector(scene.lights[0].u, 4, 0, 0);
+    expect_vector(scene.lights[0].v, 0, 0, -5);
+    expect_vector(scene.lights[0].colour, 0.5, 0.5, 0.5);
+    EXPECT_EQ(scene.lights[1].places, 0u);
+    EXPECT_EQ(scene.lights[3].places, 16u);
+    expect_vector(scene.lights[3].colour, 1, 2, 3);
     // Before the view, with the colour in another line or at the end of the file.
     ASSERT_PARSES("l 1 0 0 " + view + "l 4 5 6\n\n+1\n.5 # comment\n0");
     ASSERT_EQ(scene.light_count, 2u);
@@ -689,6 +700,10 @@ TEST(ParserError, Ranges) {
         {"ambientlight @-1e-300 0 0", light},
         {"l 0 0 0 1 @65 1", "green of the colour of a light is 65; expected a number from 0 to 64"},
         {"sun 0 1 0 1 1 @-1", "blue of the colour of a light is -1"},
+        {"panel @0 0 0 0 1 0 0 0 1 0", "the number of places of a panel is 0; expected at least 1"},
+        {"panel @17 0 0 0 1 0 0 0 1 0", "the number of places of a panel is 17; expected at most 16 (limit 'places')"},
+        {"panel 4 0 0 0 1 0 0 0 1@", "the file ends where z of v of a panel was expected"},
+        {"panel 4 0 0 0 1 0 0 0 1 0 1 1 @65", "blue of the colour of a light is 65"},
         {"f @1.1 1 1 1 1 1 1 1", "red of the colour of a fill is 1.1; expected a number from 0 to 1"},
         {"f 1 @-0.5 1 1 1 1 1 1", share},
         {"f 1 1 @1.0000000000000003 1 1 1 1 1", share},

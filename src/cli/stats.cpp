@@ -25,13 +25,16 @@ void print_objects(const scene::Description& d)
             print(host.entities[entity].plural, count);
         }
     });
-    uint32_t suns = 0;
-    for (uint32_t i = 0; i < d.light_count; i++)
+    uint32_t suns = 0, panels = 0;
+    for (uint32_t i = 0; i < d.light_count; i++) {
         suns += d.lights[i].sun;
+        panels += d.lights[i].places != 0;
+    }
     print("vertices", d.vertex_count);
     print("materials", d.fill_count);
-    print("lights", d.light_count - suns);
+    print("lights", d.light_count - suns - panels);
     print("suns", suns);
+    print("panels", panels);
     print("dropped", d.dropped);
 }
 

@@ -40,7 +40,8 @@ public:
             return false;
         resolution.pairs(s.sorted.data);
         shapes();
-        lights();
+        if (!lights(error))
+            return false;
         materials();
         camera();
         eye_surface();
@@ -247,7 +248,7 @@ private:
     }
 
     // Colours are divided by 2^exposure so that no sum of lights leaves the range of Colour.
-    void lights()
+    bool lights(Error& error)
     {
         double emission = 0;
         for (uint32_t i = 0; i < d.fill_count; i++)
@@ -260,8 +261,13 @@ private:
             while (ldexp(fmax(largest(sum), largest(d.background)), -s.exposure) > range)
                 s.exposure++;
         s.background = colour(d.background);
+        uint32_t panels = 0;
         for (uint32_t i = 0; i < d.light_count; i++) {
             const LightSource& l = d.lights[i];
+            if (l.places != 0 && !panel(l, panels++, error))
+                return false;
+            if (l.places != 0)
+                continue;
             if (l.sun) {
                 s.suns.push() = {Convert<N>::direction(unit(l.at)), colour(l.colour)};
                 continue;
@@ -282,6 +288,35 @@ private:
                 });
             s.lights.push() = {Convert<N>::point(at), shift, colour(l.colour)};
         }
+        return true;
+    }
+
+    bool panel(const LightSource& l, uint32_t number, Error& error)
+    {
+        const Vec3d at = frame.point(l.at), u = l.u * frame.scale, v = l.v * frame.scale;
+        const Vec3d reach{fabs(u.x) + fabs(v.x), fabs(u.y) + fabs(v.y), fabs(u.z) + fabs(v.z)};
+        const auto [far, shift] = far_point({fabs(at.x) + reach.x, fabs(at.y) + reach.y, fabs(at.z) + reach.z});
+        if (shift > 30 || (is_float && largest(far) > 0x1p60)) {
+            if (largest(reach) > 0x1p-20 * largest(at)) {
+                snprintf(error.text, sizeof error.text,
+                         "a panel that is too far away for its size, %.3g by %.3g: as far as 1e9 times the scene's size",
+                         2 * scene::length(l.u), 2 * scene::length(l.v));
+                return false;
+            }
+            s.suns.push() = {Convert<N>::direction(unit(at)), colour(l.colour)};
+            return true;
+        }
+        if (shift == 0)
+            resolution.panel_surfaces(l, [&](uint32_t place, uint32_t fill, const Vec3d& outward, int32_t side) {
+                if (s.light_surfaces.count < d.light_count * light_surfaces_each)
+                    s.light_surfaces.push() = {~number, make_tag(place, fill), Convert<N>::direction(outward), side};
+            });
+        const auto fine = [shift = shift](const Vec3d& p) {
+            return Convert<N>::point(p * ldexp(1, Panel<N>::fine - shift));
+        };
+        s.panels.push() = {fine(at - u - v), fine(u * (2.0 / l.places)), fine(v * (2.0 / l.places)), shift, colour(l.colour),
+                           static_cast<uint8_t>(l.places), static_cast<uint8_t>(number)};
+        return true;
     }
     static double off_zero(double v) { return copysign(fmax(fabs(v), 0x1p-38), v); }
     static constexpr double range = 7.99;

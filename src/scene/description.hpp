@@ -29,6 +29,7 @@ struct Limits {
     static constexpr uint32_t surfaces = 1'048'576; // after building: a patch of n corners has n - 2; see Tag
     static constexpr uint32_t materials = 4'096;    // distinct fills
     static constexpr uint32_t lights = 64;
+    static constexpr uint32_t places = 16;          // of a panel, along an edge
     static constexpr uint32_t resolution = 32'768;  // pixels along either edge
     static constexpr uint32_t text = 256u << 20;    // bytes of scene text, and of a mesh's file
     static constexpr uint32_t images = 64;          // different files
@@ -65,7 +66,9 @@ struct Fill {
 
 struct LightSource {
     bool sun = false;
-    Vec3d at;     // position, or for a sun the direction it shines from (not normalised)
+    uint32_t places = 0; // of a panel, along an edge; else 0
+    Vec3d at;     // position, of a panel its middle; or for a sun the direction it shines from (not normalised)
+    Vec3d u, v;   // half edges of a panel
     Vec3d colour; // resolved: 1/sqrt(n) where the text gave none
 };
 

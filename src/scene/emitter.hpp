@@ -34,9 +34,10 @@ constexpr const char* fields_of(std::string_view table)
         {"images", "coordinates along u, v; texels, their colours, width, height"},
         {"globes", "centre / 2^shift; shift; texels, their colours, width, height"},
         {"lights", "place / 2^shift; shift; colour"},
+        {"panels", "corner, steps from place to place, all / 2^shift; shift; colour; places along an edge; number"},
         {"suns", "direction towards it; colour"},
         {"entries", "boxes, a tree in preorder: middle; half; link"},
-        {"light_surfaces", "light; tag of the surface that it lies on; normal there; side"},
+        {"light_surfaces", "light, or complement of a panel; tag of the surface that it lies on; normal there; side"},
     };
     for (const auto& k : known)
         if (k.table == table)

@@ -156,6 +156,7 @@ private:
             {"f", &Parser::fill},
             {"ambientlight", &Parser::ambient_light},
             {"sun", &Parser::sun},
+            {"panel", &Parser::panel},
             {"material", &Parser::material},
             {"texture", &Parser::texture},
             {"mesh", &Parser::mesh},
@@ -256,10 +257,27 @@ private:
     bool background() { return colour("the background", light_range, out.background); }
     bool ambient_light() { return colour("the ambient light", light_range, out.ambient); }
     bool far() { return number("'far'", size_range, out.far); }
-    bool lamp() { return light(false); }
-    bool sun() { return light(true); }
+    bool lamp()
+    {
+        return light([this](LightSource& l) { return point("the place of a light", l.at); });
+    }
+    bool sun()
+    {
+        return light([this](LightSource& l) {
+            l.sun = true;
+            return direction("the direction of a sun", l.at);
+        });
+    }
+    bool panel()
+    {
+        return light([this](LightSource& l) {
+            return count("the number of places of a panel", 1, Limits::places, "places", l.places)
+                && point("the middle of a panel", l.at) && point("u of a panel", l.u) && point("v of a panel", l.v);
+        });
+    }
 
-    bool light(bool sun)
+    template <class Read>
+    bool light(Read read)
     {
         if (object_line != 0)
             return fail(entity.at,
@@ -268,8 +286,8 @@ private:
         if (out.light_count == Limits::lights)
             return fail(entity.at, "too many lights; expected at most %u (limit 'lights')", Limits::lights);
         LightSource& l = out.lights[out.light_count];
-        l.sun = sun;
-        if (!(sun ? direction("the direction of a sun", l.at) : point("the place of a light", l.at)))
+        l = {};
+        if (!read(l))
             return false;
         const bool has_colour = lexer.next().kind == TokenKind::number;
         lexer.unread();

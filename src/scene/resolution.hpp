@@ -137,6 +137,34 @@ public:
         });
     }
 
+    // The same for the flat surfaces in whose plane a panel lies, and that have a part of it near them.
+    template <class F>
+    void panel_surfaces(const LightSource& l, F f) const
+    {
+        const double off = fmax(Steps<N>::off * step(), 0x1p-44 * (frame.radius + largest(l.at)));
+        const Vec3d reach{fabs(l.u.x) + fabs(l.v.x) + off, fabs(l.u.y) + fabs(l.v.y) + off, fabs(l.u.z) + fabs(l.v.z) + off};
+        uint32_t first = 0;
+        for (uint32_t i = 0; i < d.object_count; first += surfaces_of(d.objects[i++])) {
+            const Object& o = d.objects[i];
+            Extent box;
+            add_object(box, d, o);
+            const Vec3d low = box.low - l.at, high = box.high - l.at;
+            const bool fan = o.kind == Kind::patch;
+            if ((!fan && kind_of(o) != flat)
+                || (!is_endless(o)
+                    && (low.x > reach.x || low.y > reach.y || low.z > reach.z || high.x < -reach.x || high.y < -reach.y
+                        || high.z < -reach.z)))
+                continue;
+            for (uint32_t part = 0; part < surfaces_of(o); part++) {
+                const Vec3d* const v = d.vertices + o.vertex;
+                const Vec3d n = fan ? unit(cross(v[part + 1] - v[0], v[part + 2] - v[part + 1])) : normal(o);
+                const double height = dot(n, l.at - place(o));
+                if (fabs(height) + fabs(dot(n, l.u)) + fabs(dot(n, l.v)) <= off)
+                    f(first + part, o.fill, n, fabs(height) <= 16 * noise(o, n, l.at) ? 0 : height > 0 ? 1 : -1);
+            }
+        }
+    }
+
     // Does an object in view span steps enough?
     void span(const Object& o)
     {

@@ -36,7 +36,7 @@ SHAPES = {name: name + ("es" if name[-1] in "hsx" else "s") for name in told()["
 # it.
 FILES = {
     "camera": "camera render grid adaptive", "nearest hit": "nearest tree shadow see_through",
-    "shading": "trace highlight light sun mirror transmit", "textures": " ".join([*told()["textures"], "texels"]),
+    "shading": "trace highlight light sun panel mirror transmit", "textures": " ".join([*told()["textures"], "texels"]),
     "output": "sampler sink ppm main",
 }
 STEPS = {**SHAPES, **{file: step for step, files in FILES.items() for file in files.split()}}

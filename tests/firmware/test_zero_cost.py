@@ -21,16 +21,17 @@ import reduce  # noqa: E402
 TOLD = json.loads(subprocess.run(["build/qray", "--describe"], stdout=subprocess.PIPE, check=True).stdout)
 SHAPE, TEXTURE = TOLD["shapes"], TOLD["textures"]  # {name: (text, a place on it)}, {name: what stands behind its name}
 VIEW = "v from %s at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 8 6\n"
-LIGHT = {"light": "l 3 4 5\n", "sun": "sun 1 2 3\n"}
+LIGHT = {"light": "l 3 4 5\n", "sun": "sun 1 2 3\n", "panel": "panel 2  3 4 5  0.5 0 0  0 0.2 0.5\n"}
 MATERIAL = {
     "highlight": "highlight 0.5 shine 3.5", "mirror": "mirror 0.3", "transmit": "transmit 0.4 ior 1.5",
 }
 # All but what has no header of its own, and but those that the text does not say.
 UNSAID = {"tree", "flat_tree", "triangle", "smooth_triangle"}
 EFFECTS = [effect for effect in TOLD["effects"] if effect not in UNSAID | {"fractional_shine"}]
-# What a scene lacks beside an effect: light comes through surfaces that transmit; samples are taken in one way.
+# What a scene lacks beside an effect: light comes through surfaces that transmit; samples are taken in one way; the
+# places of a panel are lights.
 WITHOUT = {effect: {"adaptive"} for effect in [*EFFECTS, *UNSAID]} | {"grid": set(), "adaptive": set()}
-WITHOUT["light"] |= {"light_surface"}
+WITHOUT["light"] |= {"light_surface", "panel"}
 WITHOUT["shadow"] |= {"see_through", "light_surface"}
 WITHOUT["see_through"] |= {"transmit"}
 WITHOUT["transmit"] |= {"see_through"}

@@ -42,7 +42,8 @@ void draw_scene(const std::string& name, const std::string& text, const qray::sc
     const Camera<N>& c = s.camera;
     for (int32_t k = 0; k < 4; k++) {
         CountRays rays;
-        const auto light = trace(s, eye_ray(s, c.row(k / 2 == 0 ? -1 : 1) + c.right * (k % 2 == 0 ? -1 : 1)), rays);
+        const auto light = trace(s, eye_ray(s, c.row(k / 2 == 0 ? -1 : 1) + c.right * (k % 2 == 0 ? -1 : 1)), rays,
+                                 EyeSample{static_cast<uint32_t>(k), 0});
         const double scaled = std::ldexp(1, s.exposure);
         const double r = exact<double>(light.x) * scaled, g = exact<double>(light.y) * scaled,
                      b = exact<double>(light.z) * scaled;

@@ -32,7 +32,9 @@ public:
             + " hither 1 resolution 2 2\n";
         lights = random.below(energy ? 3 : 6);
         for (uint32_t i = 0; i < lights; i++) {
-            s += random.chance(0.3) ? "sun " + direction() : "l " + point();
+            s += random.chance(0.3) ? "sun " + direction()
+                : random.chance(0.2) ? "panel 3 " + point() + " " + direction() + " " + direction()
+                                     : "l " + point();
             // Together at most one half.
             const double most = energy ? 0.5 / lights : random.chance(0.1) ? 64 : 1;
             s += " " + number(random.in(0, most)) + " " + number(random.in(0, most)) + " " + number(most) + "\n";

@@ -107,7 +107,15 @@ struct Material {
 
 struct Light {
     bool sun = false, coloured = false;
-    Vec at, colour;  // at: a place, or the unit direction to a sun
+    Vec at, colour;  // at: a place, a panel's middle, or the unit direction to a sun
+    int places = 0;  // of a panel along an edge, else 0
+    uint32_t number = 0;  // among panels
+    Vec u, v;        // its half edges
+};
+
+// Column and row of an eye's sample among all of its size.
+struct Sample {
+    uint32_t x = 0, y = 0;
 };
 
 enum class Kind { Sphere, Cone, Polygon, Triangle, Plane, Disc };
@@ -390,10 +398,13 @@ void read_scene(Reader& in, Scene& s) {
             s.background = in.vec();
         } else if (w == "ambientlight") {
             s.ambient = in.vec();
-        } else if (w == "l" || w == "sun") {
+        } else if (w == "l" || w == "sun" || w == "panel") {
             Light l;
             l.sun = w == "sun";
+            if (w == "panel") l.places = in.integer();
             l.at = in.vec();
+            if (l.places) l.u = in.vec(), l.v = in.vec();
+            for (const Light& other : s.lights) if (l.places && other.places) ++l.number;
             if (l.sun) l.at = unit(l.at);
             if (in.number_next()) l.coloured = true, l.colour = in.vec();
             s.lights.push_back(l);
@@ -736,12 +747,13 @@ Vec shading_normal(const Scene& s, const Prim& p, Vec q, Vec g) {
     return len > 64 * machine_eps * (length(m[0]) + length(m[1]) + length(m[2])) ? n / len : g;
 }
 
-Real lattice(int64_t x, int64_t y, int64_t z) {
+uint32_t hash(int64_t x, int64_t y, int64_t z) {
     uint32_t h = static_cast<uint32_t>(x) * 0x8da6b343u ^ static_cast<uint32_t>(y) * 0xd8163841u ^
                  static_cast<uint32_t>(z) * 0xcb1ab31fu;
     h ^= h >> 15, h *= 0x2c1b3c6du, h ^= h >> 12, h *= 0x297a2d39u, h ^= h >> 15;
-    return static_cast<Real>(h >> 8) / 16777216;
+    return h;
 }
+Real lattice(int64_t x, int64_t y, int64_t z) { return static_cast<Real>(hash(x, y, z) >> 8) / 16777216; }
 
 Real noise(Vec p) {
     Vec base{floor_of(p.x), floor_of(p.y), floor_of(p.z)}, f = p - base;
@@ -815,7 +827,23 @@ struct Settings {
     Real threshold = Real(0.0625);
 };
 
-Vec trace(const Scene& s, const Settings& set, const Ray& ray, int depth, Real weight) {
+// The points and directions that a light is, for that sample.
+std::vector<Light> lamps(const Light& light, Sample sample) {
+    if (!light.places) return {light};
+    std::vector<Light> out;
+    uint32_t h = hash(sample.x, sample.y, light.number);
+    Real n = static_cast<Real>(light.places), a = (h % 65536 + Real(0.5)) / 65536, b = (h / 65536 + Real(0.5)) / 65536;
+    for (int m = 0; m < light.places; ++m)
+        for (int k = 0; k < light.places; ++k) {
+            Light lamp;
+            lamp.at = light.at + (2 * (k + a) / n - 1) * light.u + (2 * (m + b) / n - 1) * light.v;
+            lamp.colour = light.colour / (n * n);
+            out.push_back(lamp);
+        }
+    return out;
+}
+
+Vec trace(const Scene& s, const Settings& set, const Ray& ray, int depth, Real weight, Sample sample) {
     Hit hit = nearest(s, ray);
     if (hit.prim < 0) return s.background;
     const Prim& prim = s.prim(hit.prim);
@@ -826,7 +854,7 @@ Vec trace(const Scene& s, const Settings& set, const Ray& ray, int depth, Real w
     Vec base = surface_colour(s, m, q);
 
     Vec sum = m.emission * base + m.ambient * times(base, s.ambient);
-    for (const Light& light : s.lights) {
+    for (const Light& whole : s.lights) for (const Light& light : lamps(whole, sample)) {
         Vec to = light.sun ? light.at : light.at - q;
         Real distance = light.sun ? infinity : length(to);
         if (distance <= s.t_min) continue;
@@ -852,11 +880,11 @@ Vec trace(const Scene& s, const Settings& set, const Ray& ray, int depth, Real w
             mirror = std::min(Real(1), m.mirror + m.transmit);
         } else if (weight * m.transmit >= set.cutoff) {
             Vec refracted = unit(eta * d - (eta * dn + root(k)) * n);
-            sum = sum + m.transmit * trace(s, set, {q, refracted, hit.prim}, depth + 1, weight * m.transmit);
+            sum = sum + m.transmit * trace(s, set, {q, refracted, hit.prim}, depth + 1, weight * m.transmit, sample);
         }
     }
     if (mirror > 0 && weight * mirror >= set.cutoff)
-        sum = sum + mirror * trace(s, set, {q, unit(d - 2 * dn * n), hit.prim}, depth + 1, weight * mirror);
+        sum = sum + mirror * trace(s, set, {q, unit(d - 2 * dn * n), hit.prim}, depth + 1, weight * mirror, sample);
     return sum;
 }
 
@@ -867,9 +895,11 @@ struct Camera {
     Real h = 0;
 };
 
-Vec sample(const Scene& s, const Settings& set, const Camera& cam, Real px, Real py) {
+// At (px, py) in pixels, of those that are 1/side pixels wide.
+Vec sample(const Scene& s, const Settings& set, const Camera& cam, Real px, Real py, int side) {
+    Sample place{static_cast<uint32_t>(floor_of(px * side)), static_cast<uint32_t>(floor_of(py * side))};
     Real x = cam.h * s.width / s.height * (2 * px / s.width - 1), y = cam.h * (1 - 2 * py / s.height);
-    Vec c = trace(s, set, {cam.eye, unit(cam.w + x * cam.u + y * cam.t), -1}, 1, 1);
+    Vec c = trace(s, set, {cam.eye, unit(cam.w + x * cam.u + y * cam.t), -1}, 1, 1, place);
     return {clamp01(c.x), clamp01(c.y), clamp01(c.z)};
 }
 
@@ -879,7 +909,8 @@ Vec adaptive(const Scene& s, const Settings& set, const Camera& cam, Real px, Re
     Real half = side / 2;
     Vec own[4], mean;
     for (int k = 0; k < 4; ++k)
-        own[k] = sample(s, set, cam, px + (k % 2 + Real(0.5)) * half, py + (k / 2 + Real(0.5)) * half);
+        own[k] = sample(s, set, cam, px + (k % 2 + Real(0.5)) * half, py + (k / 2 + Real(0.5)) * half,
+                        static_cast<int>(1 / half));
     for (int k = 0; k < 4; ++k) {
         Vec diff = own[k] - (own[(k + 1) % 4] + own[(k + 2) % 4] + own[(k + 3) % 4]) / 3;
         Real most = std::max(magnitude(diff.x), std::max(magnitude(diff.y), magnitude(diff.z)));
@@ -896,7 +927,7 @@ Vec pixel(const Scene& s, const Settings& set, const Camera& cam, int i, int j) 
     Vec sum;
     for (int b = 0; b < set.side; ++b)
         for (int a = 0; a < set.side; ++a)
-            sum = sum + sample(s, set, cam, i + (a + Real(0.5)) / set.side, j + (b + Real(0.5)) / set.side);
+            sum = sum + sample(s, set, cam, i + (a + Real(0.5)) / set.side, j + (b + Real(0.5)) / set.side, set.side);
     return sum / (set.side * set.side);
 }
 

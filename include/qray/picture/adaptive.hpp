@@ -79,8 +79,8 @@ constexpr Pixel adaptive_pixel(const Scene<N, E>& scene, int32_t x, int32_t y, C
         Sample<N> own[4]{};
         const int32_t step = int32_t{1} << half >> 1;
         for (int k = 0; k < 4; k++) {
-            const Pencil<N> row = scene.camera.row(y + (k & 2 ? v + step : v - step));
-            own[k] = sample(scene, row + scene.camera.right * (x + (k & 1 ? u + step : u - step)), count);
+            const int32_t j = y + (k & 2 ? v + step : v - step);
+            own[k] = sample_at(scene, scene.camera.row(j), x + (k & 1 ? u + step : u - step), j, half, count);
         }
         const Sample<N> all{own[0].r + own[1].r + own[2].r + own[3].r,
                             own[0].g + own[1].g + own[2].g + own[3].g,

@@ -20,6 +20,8 @@ constexpr Pixel render_pixel(const Scene<N, E>& scene, uint32_t i, uint32_t j, C
             return adaptive_pixel(scene, x - 1, y - 1, count);
     if constexpr (E.grid)
         return grid_pixel(scene, x, y, count);
+    else if constexpr (E.panel)
+        return pixel_at(scene, c.row(y) + c.right * x, count, eye_sample(c, x, y, 1));
     else
         return pixel_at(scene, c.row(y) + c.right * x, count);
 }

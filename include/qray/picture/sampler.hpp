@@ -62,13 +62,32 @@ QRAY_INLINE constexpr Ray<N> eye_ray(const Scene<N, E>& scene, const Pencil<N>& 
     return ray;
 }
 
-template <class N, Effects E, class Count>
-constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, Count& count)
+template <class N, Effects E, class Count, class... Place>
+constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, Count& count, Place... place)
 {
     Rgb<N> c{}; // set apart: with its initialisation the M3 spills more registers
-    c = trace(scene, eye_ray(scene, at), count);
+    c = trace(scene, eye_ray(scene, at), count, place...);
     return {Sample<N>::clamped(c.x, scene.exposure), Sample<N>::clamped(c.y, scene.exposure),
             Sample<N>::clamped(c.z, scene.exposure)};
+}
+
+// Which sample it is at (x, y), counted as camera.hpp has it, of those whose cells are 2^half such steps wide.
+template <class N>
+QRAY_INLINE constexpr EyeSample eye_sample(const Camera<N>& c, int32_t x, int32_t y, int half)
+{
+    return {static_cast<uint32_t>((x + c.grid * c.width) >> half), static_cast<uint32_t>((y + c.grid * c.height) >> half)};
+}
+
+// That sample, at x in the row of y.
+template <class N, Effects E, class Count>
+QRAY_INLINE constexpr Sample<N> sample_at(const Scene<N, E>& scene, const Pencil<N>& row, int32_t x, [[maybe_unused]] int32_t y,
+                                          [[maybe_unused]] int half, Count& count)
+{
+    const Camera<N>& c = scene.camera;
+    if constexpr (E.panel)
+        return sample(scene, row + c.right * x, count, eye_sample(c, x, y, half));
+    else
+        return sample(scene, row + c.right * x, count);
 }
 
 struct Pixel {
@@ -82,16 +101,16 @@ constexpr Pixel pixel_of(const Sample<N>& s)
 }
 
 // The pixel of one sample: of its parts, or of its register at once.
-template <InParts N, Effects E, class Count>
-QRAY_INLINE constexpr Pixel pixel_at(const Scene<N, E>& scene, const Pencil<N>& at, Count& count)
+template <InParts N, Effects E, class Count, class... Place>
+QRAY_INLINE constexpr Pixel pixel_at(const Scene<N, E>& scene, const Pencil<N>& at, Count& count, Place... place)
 {
-    return pixel_of(sample(scene, at, count));
+    return pixel_of(sample(scene, at, count, place...));
 }
-template <class N, Effects E, class Count>
-QRAY_INLINE Pixel pixel_at(const Scene<N, E>& scene, const Pencil<N>& at, Count& count)
+template <class N, Effects E, class Count, class... Place>
+QRAY_INLINE Pixel pixel_at(const Scene<N, E>& scene, const Pencil<N>& at, Count& count, Place... place)
 {
     uint8_t rgb[3]{};
-    clamped_bytes<N>(trace(scene, eye_ray(scene, at), count), scene.exposure, rgb);
+    clamped_bytes<N>(trace(scene, eye_ray(scene, at), count, place...), scene.exposure, rgb);
     return {rgb[0], rgb[1], rgb[2]};
 }
 

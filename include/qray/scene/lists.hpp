@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "../light/light.hpp"
+#include "../light/panel.hpp"
 #include "../light/sun.hpp"
 #include "../shape/cone.hpp"
 #include "../shape/disc.hpp"
@@ -53,7 +54,8 @@
 
 #define QRAY_LIGHTS(X) \
     X(Light, light, lights) \
-    X(Sun, sun, suns)
+    X(Sun, sun, suns) \
+    X(Panel, panel, panels)
 
 // Parts of a material that only some scenes have; each table has an entry for every material.
 #define QRAY_SURFACES(X) \

@@ -1,6 +1,7 @@
 // Value noise (scenes/README.md, section 4). For the noise texture, marble and wood.
 #pragma once
 
+#include "../number/hash.hpp"
 #include "lattice.hpp"
 
 namespace qray {
@@ -9,12 +10,8 @@ namespace qray {
 template <class N>
 constexpr typename N::Unit lattice_noise(uint32_t x, uint32_t y, uint32_t z)
 {
-    uint32_t h = x * 0x8da6b343u ^ y * 0xd8163841u ^ z * 0xcb1ab31fu;
-    h ^= h >> 15;
-    h *= 0x2c1b3c6du;
-    h ^= h >> 12;
-    h *= 0x297a2d39u;
-    h ^= h >> 15;
+    uint32_t h = 0;
+    hash(x, y, z, h);
     if constexpr (N::is_fixed) {
         constexpr int shift = 24 - N::Unit::frac;
         const uint32_t v = h >> 8;

@@ -127,6 +127,22 @@ constexpr int crossings_before(const Scene<N, E>& scene, const S& shape, const R
     return crossings_before(scene, shape, ray, distance);
 }
 
+// Likewise of a place of the panel of that number.
+struct PanelNumber {
+    uint32_t value;
+};
+template <class N, Effects E, class S>
+constexpr int crossings_before(const Scene<N, E>& scene, const S& shape, const Ray<N>& ray, typename N::Length distance,
+                               PanelNumber panel)
+{
+    for (uint32_t i = 0; i < scene.light_surfaces.count; i++) {
+        const LightSurface<N>& surface = scene.light_surfaces[i];
+        if (surface.light == ~panel.value && surface.tag == tag_of(shape)) // it is flat, and the way meets it nowhere else
+            return dot<N>(surface.normal, ray.direction) <= typename N::Cosine{} ? surface.side < 0 : surface.side > 0;
+    }
+    return crossings_before(scene, shape, ray, distance);
+}
+
 // Keeps the hit on a shape, if there is one before the last.
 template <class N, Effects E, class S>
 QRAY_INLINE constexpr void keep_nearest(const Scene<N, E>& scene, const Ray<N>& ray, const S& shape, Kind kind,

@@ -110,6 +110,40 @@ struct Gathered {
     [[no_unique_address]] Maybe<Rgb<N>, E.highlight> highlight;
 };
 
+// The same of one colour, from the places of a panel: as sums of shares in [0, 1], so that it is rounded once.
+template <class N>
+struct ShareSum {
+    using type = int64_t;
+};
+template <class N>
+    requires(!N::is_fixed)
+struct ShareSum<N> {
+    using type = typename N::Unit;
+};
+template <class N>
+struct GatheredShares {
+    using Sum = typename ShareSum<N>::type;
+    Sum diffuse{}, highlight{};
+
+    QRAY_INLINE constexpr void add(typename N::Unit more, typename N::Unit amount)
+    {
+        if constexpr (N::is_fixed) {
+            diffuse += more.raw;
+            highlight += amount.raw;
+        } else {
+            diffuse += more;
+            highlight += amount;
+        }
+    }
+    static constexpr typename N::Unit mean(Sum sum, uint32_t count)
+    {
+        if constexpr (N::is_fixed)
+            return {divide(sum, count, 0)};
+        else
+            return sum / static_cast<typename N::Unit>(count);
+    }
+};
+
 // One hit: all that shading asks about it.
 template <class N>
 struct Seen {
@@ -137,9 +171,9 @@ QRAY_INLINE constexpr typename N::Unit highlight_along(const Scene<N, E>& scene,
 }
 
 // Adds the light that comes along l, unless it is blocked.
-template <class N, Effects E, class Count, class... Light>
+template <class N, Effects E, class Sum, class Count, class... Light>
 QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen, const Direction<N>& l,
-                                  typename N::Length distance, const Rgb<N>& colour, Gathered<N, E>& sum, Count& count,
+                                  typename N::Length distance, const Rgb<N>& colour, Sum& sum, Count& count,
                                   Light... light)
 {
     const Surface<N>& s = seen.surface;
@@ -181,13 +215,40 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
     if constexpr (waits)
         if (waiting && !(E.see_through && scene.shadows.value))
             highlight = highlight_along(scene, seen, l, n_l);
-    add_scaled<N>(sum.matte, diffuse, colour);
-    if constexpr (E.highlight)
-        add_scaled<N>(sum.highlight.value, highlight, colour);
+    if constexpr (requires { sum.add(diffuse, highlight); }) { // for others a function moved registers
+        sum.add(diffuse, highlight);
+    } else {
+        add_scaled<N>(sum.matte, diffuse, colour);
+        if constexpr (E.highlight)
+            add_scaled<N>(sum.highlight.value, highlight, colour);
+    }
 }
 
+// Adds the light of a panel, as the eye's sample shifts its places.
 template <class N, Effects E, class Count>
-QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N>& seen, Count& count)
+constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen, const Panel<N>& panel, Gathered<N, E>& sum,
+                      Count& count, EyeSample sample)
+{
+    GatheredShares<N> shares;
+    panel.for_each_place(sample, [&](const Light<N>& place) __attribute__((always_inline)) {
+        Direction<N> l{};
+        typename N::Length distance{};
+        if (towards(place, seen.surface.point, l, distance)) {
+            if constexpr (E.light_surface)
+                gather(scene, seen, l, distance, panel.colour, shares, count, PanelNumber{panel.number});
+            else
+                gather(scene, seen, l, distance, panel.colour, shares, count);
+        }
+    });
+    const uint32_t places = uint32_t{panel.places} * panel.places;
+    add_scaled<N>(sum.matte, shares.mean(shares.diffuse, places), panel.colour);
+    if constexpr (E.highlight)
+        add_scaled<N>(sum.highlight.value, shares.mean(shares.highlight, places), panel.colour);
+}
+
+// `sample` is the eye's, where there are panels.
+template <class N, Effects E, class Count, class... Sample>
+QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N>& seen, Count& count, Sample... sample)
 {
     Gathered<N, E> sum{scene.mattes[seen.material].ambient, {}};
 #define QRAY_GATHER(Type, name, table) \
@@ -195,7 +256,9 @@ QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N>
         for (uint32_t i = 0; i < scene.table.count; i++) { \
             Direction<N> l{}; \
             typename N::Length distance{}; \
-            if (towards(scene.table[i], seen.surface.point, l, distance)) { \
+            if constexpr (requires { gather(scene, seen, scene.table[i], sum, count, sample...); }) { \
+                gather(scene, seen, scene.table[i], sum, count, sample...); \
+            } else if (towards(scene.table[i], seen.surface.point, l, distance)) { \
                 if constexpr (E.light_surface && Type<N>::has_place) \
                     gather(scene, seen, l, distance, scene.table[i].colour, sum, count, i); \
                 else \
@@ -265,8 +328,9 @@ QRAY_INLINE constexpr void accumulate(Rgb<N>& sum, const Rgb<N>& light, typename
 }
 
 // The light that comes back along an eye ray, not yet clamped to [0, 1], divided by 2^exposure.
-template <class N, Effects E, class Count>
-constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count)
+// `sample` is the eye's, where there are panels.
+template <class N, Effects E, class Count, class... Sample>
+constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count, Sample... sample)
 {
     Rgb<N> sum{N::black, N::black, N::black};
     [[maybe_unused]] Maybe<Stack<N, E>, E.transmit> stack;
@@ -282,7 +346,7 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count)
         } else {
             const Surface<N> s = surface_at(scene, ray, hit);
             const uint32_t material = hit.tag.material();
-            accumulate<N, E>(sum, local_light(scene, Seen<N>{s, hit.kind, hit.tag, material, ray.direction}, count), weight);
+            accumulate<N, E>(sum, local_light(scene, Seen<N>{s, hit.kind, hit.tag, material, ray.direction}, count, sample...), weight);
             if constexpr (E.spawns()) {
                 if (depth < scene.max_depth.value) {
                     auto reflect = N::zero;

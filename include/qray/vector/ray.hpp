@@ -31,6 +31,11 @@ struct Ray {
     bool outward; // which side of it the ray leaves to: that of its outward normal
 };
 
+// Which of the eye's samples a ray is for: its column and row among all of that size.
+struct EyeSample {
+    uint32_t x, y;
+};
+
 // How a ray stands to a surface that it meets.
 enum class Leaves { no, outward, inward };
 

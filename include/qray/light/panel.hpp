@@ -1,0 +1,56 @@
+// Panels: light from a parallelogram, by n x n places that each sample of the picture shifts in its own way.
+#pragma once
+
+#include "../number/hash.hpp"
+#include "light.hpp"
+
+namespace qray {
+
+template <class N>
+struct Panel {
+    static constexpr bool has_place = true;
+    // Lengths are finer by so many bits, so that sums of steps stay exact enough.
+    static constexpr int fine = NarrowFixed<N> ? 8 : 0;
+
+    Point<N> corner;         // in units of 2^(shift - fine) lengths, as are
+    Point<N> step_u, step_v; // from a place to the next
+    int32_t shift;           // as Light's
+    Rgb<N> colour;           // of all places together
+    uint8_t places;          // n, from 1 to 16
+    uint8_t number;          // among panels
+
+    // Calls f(light) for every place.
+    template <class F>
+    QRAY_INLINE constexpr void for_each_place(const EyeSample& sample, F f) const
+    {
+        uint32_t h = 0;
+        hash(sample.x, sample.y, number, h);
+        Point<N> row = corner + part(step_u, h & 0xffff) + part(step_v, h >> 16);
+        for (uint32_t m = 0; m < places; m++) {
+            Point<N> at = row;
+            for (uint32_t k = 0; k < places; k++) {
+                if constexpr (fine != 0)
+                    f(Light<N>{coarse<N>(at, fine), shift, colour});
+                else
+                    f(Light<N>{at, shift, colour});
+                at = at + step_u;
+            }
+            row = row + step_v;
+        }
+    }
+
+private:
+    // (i + 1/2) / 2^16 of a step.
+    static constexpr Point<N> part(const Point<N>& step, uint32_t i)
+    {
+        const auto share = [i](typename N::Length a) {
+            if constexpr (N::is_fixed)
+                return typename N::Length{rounding_shift<17>(wide_mul(a.raw, static_cast<int32_t>(2 * i + 1)))};
+            else
+                return a * (static_cast<typename N::Length>(2 * i + 1) / typename N::Length(1 << 17));
+        };
+        return {share(step.x), share(step.y), share(step.z)};
+    }
+};
+
+} // namespace qray
