@@ -86,7 +86,7 @@ $(FW_OBJ)/config: FORCE
 	    printf '%s\n' '$(subst ','\'',$(FW_CONFIG))' > $@
 
 ifneq ($(SCENE),)
-$(FW_STEM).hpp: $(SCENE) $(wildcard $(dir $(SCENE))*.obj) build/qray $(FW_OBJ)/config
+$(FW_STEM).hpp: $(SCENE) $(wildcard $(addprefix $(dir $(SCENE))*.,bmp ppm obj)) build/qray $(FW_OBJ)/config
 	@build/qray compile $(SCENE) $(FW_OPTIONS) -o $@
 $(FW_OBJ)/main.o: $(FW_STEM).hpp
 endif

@@ -307,15 +307,15 @@ private:
             return true;
         }
         if (shift == 0)
-            resolution.panel_surfaces(l, [&](uint32_t place, uint32_t fill, const Vec3d& outward, int32_t side) {
+            resolution.panel_surfaces(l, [&](uint32_t place, uint32_t fill, const Vec3d& out, int32_t side) {
                 if (s.light_surfaces.count < d.light_count * light_surfaces_each)
-                    s.light_surfaces.push() = {~number, make_tag(place, fill), Convert<N>::direction(outward), side};
+                    s.light_surfaces.push() = {~number, make_tag(place, fill), Convert<N>::direction(out), side};
             });
         const auto fine = [shift = shift](const Vec3d& p) {
             return Convert<N>::point(p * ldexp(1, Panel<N>::fine - shift));
         };
-        s.panels.push() = {fine(at - u - v), fine(u * (2.0 / l.places)), fine(v * (2.0 / l.places)), shift, colour(l.colour),
-                           static_cast<uint8_t>(l.places), static_cast<uint8_t>(number)};
+        s.panels.push() = {fine(at - u - v), fine(u * (2.0 / l.places)), fine(v * (2.0 / l.places)), shift,
+                           colour(l.colour), static_cast<uint8_t>(l.places), static_cast<uint8_t>(number)};
         return true;
     }
     static double off_zero(double v) { return copysign(fmax(fabs(v), 0x1p-38), v); }
@@ -339,8 +339,8 @@ private:
 
     Texels<N> texels[Limits::images];
 
-    // The bytes of all images: an index a texel where there are at most 256 colours and that is shorter, which stand behind
-    // them, else all three.
+    // The bytes of all images: an index a texel where there are at most 256 colours, which stand behind them, and that is
+    // shorter; else all three.
     void images()
     {
         for (uint32_t i = 0; i < d.image_count; i++) {
@@ -348,10 +348,12 @@ private:
             const uint8_t* const rgb = d.image_bytes.room.at + from.first;
             uint8_t* const to = s.texels.data + s.texels.count;
             const uint32_t size = from.width * from.height;
-            uint32_t colours = 0, keys[1024] = {}; // a colour's number stands at its hash, or at the next place that was free
+            // A colour's number stands at its hash, or at the next place that was free.
+            uint32_t colours = 0, keys[1024] = {};
             uint8_t numbers[1024];
             for (uint32_t k = 0; k < size && colours <= 256; k++) {
-                const uint32_t key = 1 + (uint32_t{rgb[3 * k]} | uint32_t{rgb[3 * k + 1]} << 8 | uint32_t{rgb[3 * k + 2]} << 16);
+                const uint8_t* const c = rgb + 3 * size_t{k};
+                const uint32_t key = 1 + (uint32_t{c[0]} | uint32_t{c[1]} << 8 | uint32_t{c[2]} << 16);
                 uint32_t at = key * 0x9e3779b1u >> 22;
                 while (keys[at] != 0 && keys[at] != key)
                     at = (at + 1) & 1023;

@@ -10,7 +10,10 @@ namespace {
 
 class Decoder {
 public:
-    Decoder(uint8_t* file, size_t bytes, ImageSource& into, char (&to)[100]) : at(file), size(bytes), out(into), fault(to) {}
+    Decoder(uint8_t* file, size_t bytes, ImageSource& into, char (&to)[100])
+        : at(file), size(bytes), out(into), fault(to)
+    {
+    }
 
     bool decode()
     {
@@ -41,14 +44,16 @@ private:
         if (width == 0 || height == 0)
             return is("has %u x %u texels", width, height);
         if (width > Limits::image_size || height > Limits::image_size)
-            return is("has %u x %u texels, more than %u each way (limit 'image_size')", width, height, Limits::image_size);
+            return is("has %u x %u texels, more than %u each way (limit 'image_size')", width, height,
+                      Limits::image_size);
         out.width = width;
         out.height = height;
         return true;
     }
     bool has(size_t first, size_t bytes)
     {
-        return first + bytes <= size || is("is short: it has %zu bytes, and its texels end at %zu", size, first + bytes);
+        return first + bytes <= size
+            || is("is short: it has %zu bytes, and its texels end at %zu", size, first + bytes);
     }
     void turn_over()
     {
@@ -67,7 +72,8 @@ private:
         constexpr uint32_t header = 40;
         if (size < 14 + header)
             return is("is short: it has %zu bytes, less than the header of a BMP", size);
-        const uint32_t first = word(10), width = word(18), height = word(22), bits = word(28) & 0xffff, method = word(30);
+        const uint32_t first = word(10), width = word(18), height = word(22);
+        const uint32_t bits = word(28) & 0xffff, method = word(30);
         if (word(14) < header)
             return is("has a header of %u bytes, not %u or more", word(14), header);
         if (bits != 24)

@@ -407,7 +407,8 @@ private:
             return false;
         char fault[100];
         if (!decode_image(all.room.at + found.first, contents.size(), found, fault))
-            return fail(token.at, "'%s' %s; expected a BMP of 24 bits a pixel or a binary PPM", Shown(token.text).text, fault);
+            return fail(token.at, "'%s' %s; expected a BMP of 24 bits a pixel or a binary PPM",
+                        Shown(token.text).text, fault);
         const size_t bytes = 3 * size_t{found.width} * found.height;
         all.size = found.first + bytes;
         for (uint32_t i = 0; i < out.image_count; i++)

@@ -142,7 +142,8 @@ public:
     void panel_surfaces(const LightSource& l, F f) const
     {
         const double off = fmax(Steps<N>::off * step(), 0x1p-44 * (frame.radius + largest(l.at)));
-        const Vec3d reach{fabs(l.u.x) + fabs(l.v.x) + off, fabs(l.u.y) + fabs(l.v.y) + off, fabs(l.u.z) + fabs(l.v.z) + off};
+        const Vec3d reach{fabs(l.u.x) + fabs(l.v.x) + off, fabs(l.u.y) + fabs(l.v.y) + off,
+                          fabs(l.u.z) + fabs(l.v.z) + off};
         uint32_t first = 0;
         for (uint32_t i = 0; i < d.object_count; first += surfaces_of(d.objects[i++])) {
             const Object& o = d.objects[i];

@@ -8,8 +8,8 @@ namespace qray {
 
 namespace detail {
 
-// atan(i / 128), in 2^-32 turns to the nearest, by Euler's series: all its terms are positive, and each is less than half of
-// the last.
+// atan(i / 128), in 2^-32 turns to the nearest, by Euler's series: all its terms are positive, and each is less than half
+// of the last.
 struct ArcTangents {
     uint32_t value[131];
     consteval ArcTangents() : value{}
@@ -33,8 +33,8 @@ inline constexpr ArcTangents arc_tangents;
 
 constexpr uint32_t absolute(int32_t v) { return v < 0 ? 0 - static_cast<uint32_t>(v) : static_cast<uint32_t>(v); }
 
-// atan(y / x) in [0, 2^30]; 0 where both are 0. Narrow is for x and y up to 2^16: by 32-bit products alone, error at most
-// 2^-17 turns. Else 2^-26.
+// atan(y / x) in [0, 2^30]; 0 where both are 0. Narrow is for x and y up to 2^16: by 32-bit products alone, error at
+// most 2^-17 turns. Else 2^-26.
 template <bool Narrow>
 constexpr uint32_t arc_tangent(uint32_t y, uint32_t x)
 {
@@ -48,8 +48,8 @@ constexpr uint32_t arc_tangent(uint32_t y, uint32_t x)
         const uint32_t* const at = &detail::arc_tangents.value[quotient >> 8];
         angle = at[0] + ((at[1] - at[0]) >> 8) * (quotient & 0xff);
     } else {
-        // Through three entries goes a parabola, whose slope falls by at most 1 from a step of u to the next; as it is more
-        // than u, their product never does.
+        // Through three entries goes a parabola, whose slope falls by at most 1 from a step of u to the next; as it is
+        // more than u, their product never does.
         const uint32_t quotient = static_cast<uint32_t>(divide(low, high, 30)), u = quotient & 0xffffff;
         const uint32_t* const at = &detail::arc_tangents.value[quotient >> 24 << 1];
         const uint32_t twice = 2 * (at[1] - at[0]), bend = twice + at[0] - at[2];

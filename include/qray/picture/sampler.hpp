@@ -75,13 +75,14 @@ constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, Count&
 template <class N>
 QRAY_INLINE constexpr EyeSample eye_sample(const Camera<N>& c, int32_t x, int32_t y, int half)
 {
-    return {static_cast<uint32_t>((x + c.grid * c.width) >> half), static_cast<uint32_t>((y + c.grid * c.height) >> half)};
+    return {static_cast<uint32_t>((x + c.grid * c.width) >> half),
+            static_cast<uint32_t>((y + c.grid * c.height) >> half)};
 }
 
 // That sample, at x in the row of y.
 template <class N, Effects E, class Count>
-QRAY_INLINE constexpr Sample<N> sample_at(const Scene<N, E>& scene, const Pencil<N>& row, int32_t x, [[maybe_unused]] int32_t y,
-                                          [[maybe_unused]] int half, Count& count)
+QRAY_INLINE constexpr Sample<N> sample_at(const Scene<N, E>& scene, const Pencil<N>& row, int32_t x,
+                                          [[maybe_unused]] int32_t y, [[maybe_unused]] int half, Count& count)
 {
     const Camera<N>& c = scene.camera;
     if constexpr (E.panel)

@@ -9,7 +9,7 @@ namespace qray {
 
 template <class N>
 struct LightSurface {
-    uint32_t light; // by its number in the scene's table of lights; of a panel, all of whose places it holds, the complement
+    uint32_t light; // by its number in the scene's table of lights; the complement of that of a panel that lies in it
     Tag tag;
     Direction<N> normal; // unit, outward, at the light; 0 at an apex
     int32_t side;        // of the surface on which the text has the light: 1 outside, -1 inside, 0 on it

@@ -25,7 +25,10 @@ struct Texels {
     uint16_t width, height;
 
     // (s, t) in 2^-32 of the image, from its lower left.
-    constexpr Vec<typename N::Unit> at(uint32_t s, uint32_t t) const { return texel(place(s, width), place(t, height)); }
+    constexpr Vec<typename N::Unit> at(uint32_t s, uint32_t t) const
+    {
+        return texel(place(s, width), place(t, height));
+    }
 
     constexpr Vec<typename N::Unit> texel(uint32_t column, uint32_t row) const
     {

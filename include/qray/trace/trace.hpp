@@ -346,7 +346,8 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count, Sampl
         } else {
             const Surface<N> s = surface_at(scene, ray, hit);
             const uint32_t material = hit.tag.material();
-            accumulate<N, E>(sum, local_light(scene, Seen<N>{s, hit.kind, hit.tag, material, ray.direction}, count, sample...), weight);
+            const Seen<N> seen{s, hit.kind, hit.tag, material, ray.direction};
+            accumulate<N, E>(sum, local_light(scene, seen, count, sample...), weight);
             if constexpr (E.spawns()) {
                 if (depth < scene.max_depth.value) {
                     auto reflect = N::zero;
