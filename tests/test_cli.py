@@ -444,6 +444,21 @@ class Scenes(Cli):
         self.write("bad.nff", v.encode() + b"s 0 0 0 \xff")
         self.fails(1, "bad.nff:2:9: found the byte 0xff", "bad.nff")
 
+    # Images are looked for beside the scene, or where the command runs if that comes from standard input.
+    def test_images_stand_beside_the_scene(self):
+        os.makedirs("folder/pictures", exist_ok=True)
+        text = view() + "ambientlight 1 1 1 material texture globe pictures/one.ppm 0 0 0 s 0 0 0 1 "
+        self.write("folder/scene.nff", text)
+        self.write("folder/pictures/one.ppm", b"P6 1 1 255 \xff\x80\x00")
+        drawn = (0, b"P6\n1 1\n255\n\xff\x80\x00", "")
+        self.assertEqual(self.run_qray("folder/scene.nff", "-q", "-o", "-"), drawn)
+        self.assertEqual(self.run_qray("-", "-q", "-o", "-", cwd="folder", input=text.encode()), drawn)
+        self.write("folder/pictures/one.ppm", b"P6 1 1 255 \xff\x80")
+        self.fails(1, "folder/scene.nff:2:43: 'pictures/one.ppm' is short: it has 13 bytes, and its texels end at 14",
+                   "folder/scene.nff")
+        os.remove("folder/pictures/one.ppm")
+        self.fails(1, "folder/scene.nff:2:43: cannot read 'pictures/one.ppm': No such file or directory", "folder/scene.nff")
+
     # The radius of the first scenes is 1/2: planes as far as 64 leave steps of 1/512, as far as 128 of 1/256. That of
     # the others is 1.03: steps are 2^-15, and the limit for a texture is 2^-27.
     def test_refused_by_q16(self):

@@ -1,6 +1,7 @@
 """The ladder of effects: one small scene, and then the same calling for one effect more at a time."""
 
 import os
+import shutil
 
 TITLE = "Three balls and a pane on a floor, then with one effect more in each row;"
 
@@ -13,16 +14,18 @@ ambientlight 0.2 0.2 0.2
 shadows {shadow}
 l 5 8 6  0.8 0.8 0.8
 {second light}
+{panel of 4}
+{panel of 16}
 material colour 0.8 0.8 0.8 diffuse 0.8 {checker}
 disc 0 0 0  0 1 0  8
 material colour 0.9 0.3 0.2 diffuse 0.8 {highlight} {mirror} {noise}
 s -1.2 0.8 0  0.8
 s 1.1 0.6 0.6  0.6
-material colour 0.3 0.5 0.9 diffuse 0.5 {glass}
+material colour 0.3 0.5 0.9 diffuse 0.5 {glass} {globe}
 s 0.1 0.4 1.8  0.4
-material colour 0.9 0.9 0.3 diffuse 0.6 {see-through shadow}
+material colour 0.9 0.9 0.3 diffuse 0.6 {see-through shadow} {emission}
 disc 0.4 1.2 -0.8  0 0 1  0.7
-material colour 0.3 0.8 0.4 diffuse 0.8
+material colour 0.3 0.8 0.4 diffuse 0.8 {image}
 {cone}
 {polygon}
 """
@@ -41,6 +44,11 @@ STEPS = [
     ("cone", "c 2.2 0 -0.8 0.5  2.2 1.4 -0.8 0", {}),
     ("polygon", "p 4  -3 0 -2  3 0 -2  3 2 -2  -3 2 -2", {}),
     ("second light", "l -6 5 3  0.4 0.4 0.4", {}),
+    ("image", "texture image tile.bmp 0 0 0 1 0 0 0 1 0", {}),
+    ("globe", "texture globe globe.ppm 0.1 0.4 1.8", {}),
+    ("emission", "emission 0.5", {}),
+    ("panel of 4", "panel 2  -2 5 4  0.5 0 0  0 0 0.5  0.3 0.3 0.3", {}),
+    ("panel of 16", "panel 4  2 5 4  0.5 0 0  0 0 0.5  0.3 0.3 0.3", {}),
     ("4 samples", "", {"SAMPLES": 4}),
 ]
 
@@ -48,6 +56,8 @@ STEPS = [
 def write(folder):
     """The scenes of all steps, as (name, file, options of make)."""
     os.makedirs(folder, exist_ok=True)
+    for image in ("tile.bmp", "globe.ppm"):
+        shutil.copy(f"scenes/{image}", folder)
     out, options = [], {}
     for last, (name, _, more) in enumerate(STEPS):
         text = SCENE.replace("{shadow}", "on" if last >= 1 else "off")
