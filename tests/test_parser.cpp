@@ -759,7 +759,7 @@ TEST(ParserError, Shapes) {
         {VIEW "texture gradient 0 0 0 1 @0 0 0", "the axis of a texture is zero"},
         {VIEW "texture marble 0 0 0 1 @0 0 0", "the axis of a texture is zero"},
         {VIEW "texture wood 0 0 0 1 @0 0 0", "the axis of a texture is zero"},
-        {VIEW "texture globe @a.bmp 0 0 0", "cannot read 'a.bmp': the scene has no folder; expected an image"},
+        {VIEW "texture globe @a.bmp 0 0 0", "cannot read 'a.bmp': there is none; expected an image"},
         {VIEW "texture image@", "the file ends where an image, BMP or PPM was expected"},
         {VIEW "texture @tartan 0 0 0 1", "expected a texture (checker "}, // and all others
         {VIEW "texture @tartan 0 0 0 1", "), found 'tartan'"},

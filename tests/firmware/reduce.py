@@ -50,6 +50,7 @@ def bare(head, body):
 
 def reduce(text):
     text = without_comments(text)
-    directives = "".join(line + "\n" for line in re.findall(r"^#.*$", text, re.M))
-    code = re.sub(r"^#.*$", "", text, flags=re.M)
+    directive = re.compile(r"^#(?:.*\\\n)*.*$", re.M)
+    directives = "".join(lines + "\n" for lines in directive.findall(text))
+    code = directive.sub("", text).replace("QRAY_NOINLINE ", "")  # which no declaration has
     return directives + "\n" + "".join(bare(*s) + "\n" for s in statements(code))
