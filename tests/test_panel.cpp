@@ -134,6 +134,20 @@ TYPED_TEST(PanelTest, FarAwayIsASunOrAnError)
     EXPECT_TRUE(built || std::string(error.text).find("a panel that is too far away for its size, 2e+14 by 2e+14") == 0) << error.text;
 }
 
+// As boards draw a compiled scene with a tree.
+constexpr scene::Settings compiled()
+{
+    scene::Settings settings;
+    settings.compiled = true;
+    return settings;
+}
+constexpr Effects flat()
+{
+    Effects e = everything(5);
+    e.tree = false;
+    return e;
+}
+
 // A pane that holds a panel, whatever its shape, is as good as one that lets all light through. Turned at random, so that no
 // plane is that of an axis; with glass beside it, for both kinds of shadow rays.
 TYPED_TEST(PanelTest, WhatItLiesInIsNotBeforeIt)
@@ -144,21 +158,37 @@ TYPED_TEST(PanelTest, WhatItLiesInIsNotBeforeIt)
         const Vec3 x = random.direction(), z = unit(cross(x, random.direction())), y = cross(z, x);
         const auto turned = [&](double a, double b, double c) { return text_of(x * a + y * b + z * c); };
         const Vec3 normal = y;
+        const auto tiles = [&](const char* entity, const std::string& at_corner) {
+            std::string all;
+            for (int k = 0; k < 50; k++) {
+                const double a = k / 2 % 5 * 0.8 - 2, b = k / 10 * 0.8 - 2, other = k % 2 * 0.8;
+                all += entity + turned(a + other, 4, b + other) + at_corner + turned(a + 0.8, 4, b) + at_corner
+                    + turned(a, 4, b + 0.8) + at_corner + "\n";
+            }
+            return all;
+        };
         const std::string panes[] = {
             "p 4" + turned(-2, 4, -2) + turned(2, 4, -2) + turned(2, 4, 2) + turned(-2, 4, 2),
             "p 3" + turned(-0.5, 4, -0.5) + turned(0.5, 4, -0.5) + turned(0, 4, 0.7), // smaller than the panel
             "disc" + turned(0.3, 4, 0) + text_of(normal) + " 1.2",
             "pp 4" + turned(-2, 4, -2) + text_of(normal) + turned(2, 4, -2) + text_of(normal) + turned(2, 4, 2) + text_of(normal)
                 + turned(-2, 4, 2) + text_of(normal),
+            tiles("p 3", ""),
+            tiles("pp 3", text_of(normal)),
         };
         const std::string head = "ambientlight 0 0 0 v from" + turned(0, 2, 9) + " at" + turned(0, 0.5, 0) + " up" + text_of(normal)
             + " angle 40 hither 1 resolution 24 18\n panel 3" + turned(0, 4, 0) + turned(1, 0, 0.2) + turned(0.1, 0, 0.9)
             + " 1 0.8 0.6 material diffuse 0.8 disc" + turned(0, 0, 0) + text_of(normal) + " 6 s" + turned(0.5, 0.5, 0) + " 0.5"
             + (i % 2 == 0 ? " material colour 0 0 0 transmit 0.5 s" + turned(-1.5, 0.5, 0) + " 0.4" : "");
-        const std::string& pane = panes[i / 2 % 4];
+        const std::string& pane = panes[i / 2];
         ASSERT_TRUE(loaded<N>(head + " material colour 0 0 0 " + pane));
         ASSERT_TRUE(storage<N>().effects.light_surface);
         const Picture with = draw<N>();
+        if (i >= 8) { // of more a tree is made
+            ASSERT_TRUE(loaded<N>(head + " material colour 0 0 0 " + pane, compiled()));
+            ASSERT_GT(storage<N>().entries.count, 0u);
+            ASSERT_EQ((draw<N, flat()>()), with);
+        }
         ASSERT_TRUE(loaded<N>(head + " material colour 0 0 0 transmit 1 " + pane));
         const Picture without = draw<N>();
         int lit = 0;

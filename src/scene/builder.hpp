@@ -281,14 +281,25 @@ private:
             if constexpr (is_float) // what is not 0 from there to a surface has a square that float holds
                 at = {off_zero(at.x), off_zero(at.y), off_zero(at.z)};
             if (shift == 0)
-                resolution.light_surfaces(l.at, [this](uint32_t place, uint32_t fill, const Vec3d& outward, int32_t side) {
-                    if (s.light_surfaces.count < d.light_count * light_surfaces_each)
-                        s.light_surfaces.push() = {s.lights.count, make_tag(place, fill),
-                                                   Convert<N>::direction(outward), side};
-                });
+                resolution.light_surfaces(l.at, keep_light_surface(s.lights.count));
             s.lights.push() = {Convert<N>::point(at), shift, colour(l.colour)};
         }
-        return true;
+        if (s.light_surfaces.count <= most_light_surfaces())
+            return true;
+        snprintf(error.text, sizeof error.text, "lights lie on more than %u surfaces (limit 'light_surfaces', times lights)",
+                 most_light_surfaces());
+        return false;
+    }
+    uint32_t most_light_surfaces() const { return d.light_count * Limits::light_surfaces; }
+    // Counts one more than there may be, too. `light` is as LightSurface has it.
+    auto keep_light_surface(uint32_t light)
+    {
+        return [this, light](uint32_t place, uint32_t fill, const Vec3d& outward, int32_t side) {
+            if (s.light_surfaces.count < most_light_surfaces())
+                s.light_surfaces.push() = {light, make_tag(place, fill), Convert<N>::direction(outward), side};
+            else
+                s.light_surfaces.count = most_light_surfaces() + 1;
+        };
     }
 
     bool panel(const LightSource& l, uint32_t number, Error& error)
@@ -307,10 +318,7 @@ private:
             return true;
         }
         if (shift == 0)
-            resolution.panel_surfaces(l, [&](uint32_t place, uint32_t fill, const Vec3d& out, int32_t side) {
-                if (s.light_surfaces.count < d.light_count * light_surfaces_each)
-                    s.light_surfaces.push() = {~number, make_tag(place, fill), Convert<N>::direction(out), side};
-            });
+            resolution.panel_surfaces(l, keep_light_surface(~number));
         const auto fine = [shift = shift](const Vec3d& p) {
             return Convert<N>::point(p * ldexp(1, Panel<N>::fine - shift));
         };

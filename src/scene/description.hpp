@@ -30,6 +30,7 @@ struct Limits {
     static constexpr uint32_t materials = 4'096;    // distinct fills
     static constexpr uint32_t lights = 64;
     static constexpr uint32_t places = 16;          // of a panel, along an edge
+    static constexpr uint32_t light_surfaces = 1'024; // that a light lies on, on average
     static constexpr uint32_t resolution = 32'768;  // pixels along either edge
     static constexpr uint32_t text = 256u << 20;    // bytes of scene text, and of a mesh's file
     static constexpr uint32_t images = 64;          // different files

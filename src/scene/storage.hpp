@@ -9,9 +9,6 @@
 
 namespace qray::scene {
 
-// As many surfaces as are kept of those that hold a light.
-inline constexpr uint32_t light_surfaces_each = 8;
-
 template <class T>
 struct Array {
     uint32_t count;
@@ -105,7 +102,7 @@ struct Storage {
 #define QRAY_CUT(Type, name, table) cut(table, d.light_count); // one that is far away becomes a sun
             QRAY_LIGHTS(QRAY_CUT)
 #undef QRAY_CUT
-            cut(light_surfaces, d.light_count * light_surfaces_each);
+            cut(light_surfaces, d.light_count * Limits::light_surfaces);
         });
     }
 
