@@ -44,7 +44,7 @@ def bare(head, body):
         told = "".join(f"{s};" for s, _ in statements(body) if re.match(r"static constexpr (bool|TextureText)\b", s))
         return f"{head}{{{told}}};" if told else f"{head};"
     if ")" in after_template:
-        return head.replace("QRAY_NOINLINE ", "") + ";"  # of which a compiler warns where there is no body
+        return head + ";"
     return f"{head}{{{body}}};"  # a constant
 
 
