@@ -171,3 +171,18 @@ def panel(study, path):
                           ticks=[0, 1, 4, 16, 64, 255], format="%d", label="levels")
     bar.minorticks_off()
     save(figure, path, "The showcase in each number system, and how far it is off")
+
+
+def growth(lines, path):
+    """Instructions a ray against shapes: {(board, number): {shapes: instructions}}."""
+    figure, axes = plt.subplots(figsize=(7.6, 4.6))
+    tones = dict(zip(dict.fromkeys(board for board, _ in lines), TONES))
+    for (board, number), line in lines.items():
+        axes.plot(*zip(*sorted(line.items())), color=tones[board], marker=MARKS[number], linewidth=1,
+                  linestyle="-" if number == "q32" else "--", label=f"{board} {number}")
+    axes.set(xscale="log", yscale="log", xlabel="balls", ylabel="instructions a ray")
+    log_axis(axes.xaxis)
+    log_axis(axes.yaxis)
+    axes.legend(ncols=2, fontsize=8)
+    save(figure, path, "Growth of cost with the number of shapes",
+         "Balls on balls. A board's line ends where its flash does.")

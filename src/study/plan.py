@@ -88,7 +88,7 @@ class Pixels:
     def __init__(self, question):
         own = (f"src/study/{name}" for name in ("measure.cpp", "scattered.hpp"))
         key = runs.hash_of(runs.tree_hash("include", "src/scene", *own), runs.text_of("build/obj/flags"),
-                           runs.text_of(question.scene), question.size)
+                           runs.scene_text(question.scene), question.size)
         self.path = f"{FOLDER}/{key}.pixels.json"
         self.question = question
         self.head, known = runs.kept(self.path) or (None, [])

@@ -9,6 +9,7 @@ import re
 import sys
 
 sys.dont_write_bytecode = True
+import growth  # noqa: E402
 import ladder  # noqa: E402
 import runs  # noqa: E402
 import text as texts  # noqa: E402
@@ -17,7 +18,7 @@ from text import count, table  # noqa: E402
 PAGES = ["README.md", "src/study/README.md"]
 FOLDER = "build/study"
 # Scenes of the table of boards, and the size that all their firmwares share.
-BOARD_SCENES = {"scenes/floor.nff": "32x24", "scenes/showcase.nff": "16x12"}
+BOARD_SCENES = {"scenes/floor.nff": "32x24", "scenes/knot.nff": "32x24", "scenes/showcase.nff": "16x12"}
 
 
 def boards():
@@ -57,6 +58,7 @@ REPORTS = {
     "boards": (boards, lambda: list(BOARD_SCENES) + [f"| {short} | {n} |" for short in runs.BOARDS.values()
                                                      for n in runs.numbers()]),
     **texts.REPORTS,
+    **growth.REPORTS,
     "effects": (effects, lambda: ["+ " + name for name, *_ in ladder.STEPS[1:]]),
 }
 

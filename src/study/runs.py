@@ -59,6 +59,11 @@ def text_of(path):
         return file.read()
 
 
+def scene_text(path):
+    """With the meshes beside it."""
+    return "".join(map(text_of, [path, *sorted(glob.glob(os.path.dirname(path) + "/*.obj"))]))
+
+
 def measure(first, last, scene, size, *settings):
     """What measure.cpp says of combs first to last - 1, compared with the first setting's."""
     own = [[*words(s), *([] if size == "-" else ["-s", size]), scene, ","] for s in settings]
@@ -105,7 +110,7 @@ class Run:
         return f"{board} {self.number} {name} {self.size}{options}{' profile' * self.profile}"
 
     def key(self, inputs):
-        return hash_of(inputs.sources, inputs.compiler(self.board), self.board, text_of(self.scene), self.number,
+        return hash_of(inputs.sources, inputs.compiler(self.board), self.board, scene_text(self.scene), self.number,
                        self.size, self.profile and inputs.tracing, self.build_only,
                        sorted(self.options.items()))
 
