@@ -61,7 +61,7 @@ def text_of(path):
 
 def scene_text(path):
     """With the meshes beside it."""
-    return "".join(map(text_of, [path, *sorted(glob.glob(os.path.dirname(path) + "/*.obj"))]))
+    return "".join(map(text_of, [path, *sorted(glob.glob(os.path.join(os.path.dirname(path), "*.obj")))]))
 
 
 def measure(first, last, scene, size, *settings):
