@@ -32,7 +32,7 @@ struct Bench {
         from.far = world - 0.25; // of itself it would halve the scale
         from.ambient = {0.2, 0.2, 0.2};
         from.lay_out(1 << 16, 1 << 18);
-        storage.lay_out(from); // the only shape's table lies at the room's beginning, now and after build()
+        storage.lay_out(from, false); // the only shape's table lies at the room's beginning, now and after build()
         from.fill_count = from.object_count = 1;
         from.fills[0] = {};
     }
