@@ -70,7 +70,7 @@ render: build/qray
 # Tests: each tests/test_*.cpp is a program of its own, built with sanitizers; and those that ask more of a fast program
 # (a million rays instead of 20,000, larger pictures) once more as users would build it.
 UNIT    := $(patsubst tests/%.cpp,%,$(wildcard tests/test_*.cpp))
-FAST    := test_hostile test_math test_meshes test_metamorphic test_tree
+FAST    := test_hostile test_math test_meshes test_metamorphic
 SCRIPTS := $(wildcard tests/test_*.py tests/test_*.sh tests/*/test_*.py tests/*/test_*.sh)
 TESTS      = $(SCRIPTS) $(addprefix build/tests/,$(FAST)) $(addprefix build/sanitized/tests/,$(UNIT))
 TEST_NEEDS = build/qray build/sanitized/qray build/oracle $(VARIANTS:%=build/variants/%/qray)

@@ -56,8 +56,9 @@ def scene(absent):
 
 def compile_scene(name, absent, include):
     """Of the tracer's object file what ends in memory, by section, and the names in it; or make's output."""
-    with open(f"{FOLDER}/image.ppm", "wb") as file:
+    with open(f"{FOLDER}/{name}.part", "wb") as file:
         file.write(b"P6 2 2 255\n" + bytes(range(12)))
+    os.replace(f"{FOLDER}/{name}.part", f"{FOLDER}/image.ppm")  # others may be reading it
     with open(f"{FOLDER}/{name}.nff", "w") as file:
         file.write(scene(absent))
     path = f"build/microbit/zero_{name}-q32.obj/main.o"
