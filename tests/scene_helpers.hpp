@@ -20,6 +20,20 @@ scene::Storage<N>& storage()
     return kept<scene::Storage<N>>();
 }
 
+// As boards draw a compiled scene with a tree.
+constexpr scene::Settings compiled(bool is = true)
+{
+    scene::Settings s;
+    s.compiled = is;
+    return s;
+}
+constexpr Effects flat()
+{
+    Effects e = everything(5);
+    e.tree = false;
+    return e;
+}
+
 // Parses and builds into storage<N>().
 template <class N>
 ::testing::AssertionResult loaded(const std::string& text, const scene::Settings& settings = {}, const scene::Files* files = nullptr)

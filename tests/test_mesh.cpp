@@ -12,21 +12,6 @@ template <class N>
 struct LeanTest : ::testing::Test {};
 TYPED_TEST_SUITE(LeanTest, NumberSystems, SystemNames);
 
-constexpr scene::Settings lean()
-{
-    scene::Settings s;
-    s.compiled = true;
-    return s;
-}
-
-// What draws a compiled scene with a tree.
-constexpr Effects flat()
-{
-    Effects e = everything(5);
-    e.tree = false;
-    return e;
-}
-
 std::string enough_for_a_tree()
 {
     std::string text;
@@ -58,20 +43,20 @@ TYPED_TEST(LeanTest, EqualCornersAreStoredOnce)
 {
     using N = TypeParam;
     const auto& s = storage<N>();
-    ASSERT_TRUE(loaded<N>(view + octahedron(true), lean()));
+    ASSERT_TRUE(loaded<N>(view + octahedron(true), compiled()));
     EXPECT_EQ(s.smooth_triangles.count, 8u);
     EXPECT_EQ(s.vertices.count, 6u);
     EXPECT_EQ(s.normals.count, 6u);
     EXPECT_EQ(s.patches.count, 0u);
     // Flat ones at the same places share them, and need no normals.
-    ASSERT_TRUE(loaded<N>(view + octahedron(false) + octahedron(true) + octahedron(false, "2"), lean()));
+    ASSERT_TRUE(loaded<N>(view + octahedron(false) + octahedron(true) + octahedron(false, "2"), compiled()));
     EXPECT_EQ(s.triangles.count, 16u);
     EXPECT_EQ(s.smooth_triangles.count, 8u);
     EXPECT_EQ(s.vertices.count, 12u);
     EXPECT_EQ(s.normals.count, 6u);
     EXPECT_EQ(s.polygons.count, 0u);
     // Other normals at the same place make other corners.
-    ASSERT_TRUE(loaded<N>(view + octahedron(true) + "pp 3 1 0 0 0 1 0  0 1 0 0 1 0  0 0 1 0 0 1", lean()));
+    ASSERT_TRUE(loaded<N>(view + octahedron(true) + "pp 3 1 0 0 0 1 0  0 1 0 0 1 0  0 0 1 0 0 1", compiled()));
     EXPECT_EQ(s.vertices.count, 7u);
     // On a desktop all stay as they are.
     ASSERT_TRUE(loaded<N>(view + octahedron(true) + octahedron(false)));
@@ -88,7 +73,7 @@ TYPED_TEST(LeanTest, WhatDoesNotFitIsLeft)
     for (int i = 0; i < 257; i++)
         text += "material shine " + std::to_string(i) + " s 5 0 0 1\n";
     text += octahedron(true); // of material 256, for shine 1 is the first's
-    ASSERT_TRUE(loaded<N>(text, lean()));
+    ASSERT_TRUE(loaded<N>(text, compiled()));
     EXPECT_EQ(s.polygons.count, 1u);
     EXPECT_EQ(s.triangles.count, 8u);
     EXPECT_EQ(s.patches.count, 8u);
@@ -97,7 +82,7 @@ TYPED_TEST(LeanTest, WhatDoesNotFitIsLeft)
     std::string many = view;
     for (uint32_t i = scene::least_for_tree<q16>; i < 65532; i++)
         many += "s 0 0 0 1\n";
-    ASSERT_TRUE(loaded<N>(many + octahedron(false), lean()));
+    ASSERT_TRUE(loaded<N>(many + octahedron(false), compiled()));
     EXPECT_EQ(s.triangles.count, 4u);
     EXPECT_EQ(s.polygons.count, 4u);
     EXPECT_EQ(s.vertices.count, 5u + 4 * 3);
@@ -132,7 +117,7 @@ TYPED_TEST(LeanTest, PicturesAreThoseOfPolygonsAndPatches)
         ASSERT_TRUE(loaded<N>(text));
         const Picture expected = draw<N>();
         const uint32_t all = storage<N>().polygons.count + storage<N>().patches.count;
-        ASSERT_TRUE(loaded<N>(text, lean()));
+        ASSERT_TRUE(loaded<N>(text, compiled()));
         const auto& s = storage<N>();
         EXPECT_EQ(s.polygons.count + s.patches.count + s.triangles.count + s.smooth_triangles.count, all);
         triangles += s.triangles.count + s.smooth_triangles.count;
@@ -162,7 +147,7 @@ TYPED_TEST(LeanTest, AFanMayFitInPart)
     }
     ASSERT_TRUE(loaded<N>(text));
     const Picture expected = draw<N>();
-    ASSERT_TRUE(loaded<N>(text, lean()));
+    ASSERT_TRUE(loaded<N>(text, compiled()));
     const auto& s = storage<N>();
     EXPECT_EQ(s.vertices.count, s.normals.count);
     if (WideFixed<N>) {

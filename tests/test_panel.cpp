@@ -134,20 +134,6 @@ TYPED_TEST(PanelTest, FarAwayIsASunOrAnError)
     EXPECT_TRUE(built || std::string(error.text).find("a panel that is too far away for its size, 2e+14 by 2e+14") == 0) << error.text;
 }
 
-// As boards draw a compiled scene with a tree.
-constexpr scene::Settings compiled()
-{
-    scene::Settings settings;
-    settings.compiled = true;
-    return settings;
-}
-constexpr Effects flat()
-{
-    Effects e = everything(5);
-    e.tree = false;
-    return e;
-}
-
 // A pane that holds a panel, whatever its shape, is as good as one that lets all light through. Turned at random, so that no
 // plane is that of an axis; with glass beside it, for both kinds of shadow rays.
 TYPED_TEST(PanelTest, WhatItLiesInIsNotBeforeIt)

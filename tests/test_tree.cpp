@@ -28,13 +28,6 @@ constexpr Effects shapes(Over tree)
     return e;
 }
 
-constexpr scene::Settings settings(Over tree)
-{
-    scene::Settings s;
-    s.compiled = tree == Over::compiled;
-    return s;
-}
-
 std::string numbers(std::initializer_list<double> list)
 {
     std::string text;
@@ -69,7 +62,7 @@ void expect_same_hits(uint64_t seed, int count, double size, int rays)
     const double spread = 8;
     ASSERT_TRUE(loaded<N>("v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3\n"
                           + objects(random, count, spread, size),
-                          settings(tree)));
+                          compiled(tree == Over::compiled)));
     if (tree == Over::compiled && storage<N>().entries.count == 0)
         return; // too few
     const auto with = storage<N>().template view<shapes(tree)>();
@@ -128,7 +121,7 @@ TYPED_TEST(TreeTest, HitsAreTheSameAmongTinyObjects)
         text += "s" + numbers({p.x, p.y, p.z, NarrowFixed<N> ? 0.05 : 0.001}) + "\n";
     }
     const auto find_all = [&]<Over tree>() {
-        ASSERT_TRUE(loaded<N>(text, settings(tree)));
+        ASSERT_TRUE(loaded<N>(text, compiled(tree == Over::compiled)));
         const auto with = storage<N>().template view<shapes(tree)>();
         for (uint32_t i = 0; i < with.spheres.count; i++) {
             const Vec3 centre = value(with.spheres[i].centre);
@@ -213,7 +206,7 @@ void expect_hostile_rays_hit_the_same()
         text += numbers({(i % 2 ? 3 : 6) * cos(i * M_PI / 10), (i % 2 ? 3 : 6) * sin(i * M_PI / 10), 1});
     for (int i = 0; i < 9; i++) // and boxes that touch
         text += "\np 4" + numbers({-8.0 + i, -8, 2, -7.0 + i, -8, 2, -7.0 + i, -7, 2, -8.0 + i, -7, 2});
-    ASSERT_TRUE(loaded<N>(text + "\n", settings(tree)));
+    ASSERT_TRUE(loaded<N>(text + "\n", compiled(tree == Over::compiled)));
     const auto with = storage<N>().template view<shapes(tree)>();
     const auto without = storage<N>().template view<shapes(Over::none)>();
     if constexpr (tree == Over::desktop)
@@ -253,7 +246,7 @@ TYPED_TEST(TreeTest, CoincidentObjectsAreToldApartByTheirPlace)
     for (int i = 0; i < 100; i++)
         text += "s 0 0 0 1\n disc 0 0 1 0 0 1 1\n";
     const auto find_first = [&]<Over tree>() {
-        ASSERT_TRUE(loaded<N>(text, settings(tree)));
+        ASSERT_TRUE(loaded<N>(text, compiled(tree == Over::compiled)));
         const auto with = storage<N>().template view<shapes(tree)>();
         Hit<N> hit{};
         ASSERT_TRUE(nearest(with, make<N>::ray(value(with.camera.eye), {0, 0, -1}), hit));
