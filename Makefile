@@ -52,7 +52,7 @@ define IN_LANES
 endef
 $(LANED): USED = $(FLAGS) $(PROGRAM)
 $(LANED): build/obj/%.o: %.cpp build/obj/flags; $(IN_LANES)
-$(LANED:build/%=build/sanitized/%): USED = $(SANITIZE) -O1
+$(LANED:build/%=build/sanitized/%): USED = $(SANITIZE) -Og
 $(LANED:build/%=build/sanitized/%): build/sanitized/obj/%.o: %.cpp build/obj/flags; $(IN_LANES)
 # Rewritten when the flags change, so that everything is compiled again.
 build/obj/flags: FORCE
@@ -76,7 +76,7 @@ TESTS      = $(SCRIPTS) $(addprefix build/tests/,$(FAST)) $(addprefix build/sani
 TEST_NEEDS = build/qray build/sanitized/qray build/oracle $(VARIANTS:%=build/variants/%/qray)
 TEST_LIBS := -lgtest -lgtest_main -lquadmath -pthread
 
-build/tests/%: build/obj/tests/%.o build/obj/tests/scene_helpers.o $(LIBRARY)
+build/tests/%: build/obj/tests/%.o build/obj/tests/tracer.o $(LIBRARY)
 	@mkdir -p $(@D)
 	@$(CXX) $(OPTIMISE) $^ $(TEST_LIBS) -o $@
 build/obj/tests/%.o: tests/%.cpp build/obj/gtest.hpp.gch
@@ -87,19 +87,19 @@ build/obj/tests/%.o: tests/%.cpp build/obj/gtest.hpp.gch
 SANITIZED := $(patsubst build/%,build/sanitized/%,$(LIBRARY))
 build/sanitized/qray: $(patsubst build/%,build/sanitized/%,$(COMMAND))
 	@$(CXX) -fsanitize=address,undefined $^ -pthread -o $@
-build/sanitized/tests/%: build/sanitized/obj/tests/%.o build/sanitized/obj/tests/scene_helpers.o $(SANITIZED)
+build/sanitized/tests/%: build/sanitized/obj/tests/%.o build/sanitized/obj/tests/tracer.o $(SANITIZED)
 	@mkdir -p $(@D)
 	@$(CXX) -fsanitize=address,undefined $^ $(TEST_LIBS) -o $@
 build/sanitized/obj/src/%.o: src/%.cpp build/obj/flags
 	@echo "  compile $< with sanitizers"
 	@mkdir -p $(@D)
-	@$(CXX) $(SANITIZE) -O1 -c $< -o $@
+	@$(CXX) $(SANITIZE) -Og -c $< -o $@
 # To compile is what takes time; but for these, which compute much.
-LONG := test_math test_parser test_hard_bounds
+LONG := test_math test_parser tracer
 build/sanitized/obj/tests/%.o: tests/%.cpp build/sanitized/obj/gtest.hpp.gch
 	@echo "  compile $< with sanitizers"
 	@mkdir -p $(@D)
-	@$(CXX) $(SANITIZE) $(if $(filter $*,$(LONG)),-O1,-O0 -include build/sanitized/obj/gtest.hpp) -c $< -o $@
+	@$(CXX) $(SANITIZE) $(if $(filter $*,$(LONG)),-Og,-O0 -include build/sanitized/obj/gtest.hpp) -c $< -o $@
 build/obj/gtest.hpp.gch: USED = $(FLAGS) # GoogleTest's header, compiled once
 build/sanitized/obj/gtest.hpp.gch: USED = $(SANITIZE) -O0
 %/gtest.hpp.gch: build/obj/flags

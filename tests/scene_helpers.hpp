@@ -2,11 +2,7 @@
 #pragma once
 
 #include "number_helpers.hpp"
-#include "roomy.hpp"
-
-#include "../src/scene/builder.hpp"
-
-#include <qray/picture/render.hpp>
+#include "tracer.hpp"
 
 #include <string>
 #include <vector>
@@ -45,37 +41,8 @@ template <class N>
     return ::testing::AssertionSuccess();
 }
 
-struct RayCount {
-    uint64_t rays[4] = {};
-    void operator()(RayKind kind) { rays[static_cast<int>(kind)]++; }
-    uint64_t operator[](RayKind kind) const { return rays[static_cast<int>(kind)]; }
-};
-
-} // namespace qray::test
-
-namespace qray {
-
-// What takes long to compile: once for all tests, in tests/scene_helpers.cpp; not for those in lanes, which are alone.
-#ifndef QRAY_ALONE
-#ifndef QRAY_ONCE
-#define QRAY_ONCE extern
-#endif
-#define QRAY_FOR(N) \
-    QRAY_ONCE template class scene::Builder<N>; \
-    QRAY_ONCE template Rgb<N> trace(const Scene<N, everything(scene::Settings::max_depth)>&, Ray<N>, test::RayCount&, EyeSample)
-QRAY_FOR(q16);
-QRAY_FOR(q32);
-QRAY_FOR(Float);
-QRAY_FOR(Double);
-#undef QRAY_FOR
-#endif
-
-} // namespace qray
-
-namespace qray::test {
-
 // For a scene that has been loaded: the light along the ray through the centre of pixel (i, j), not clamped.
-template <class N, Effects E = everything(scene::Settings::max_depth)>
+template <class N, Effects E = scene::desktop_effects()>
 Vec3 light_at(uint32_t i, uint32_t j, RayCount* count = nullptr)
 {
     const Scene<N, E> s = storage<N>().template view<E>();
@@ -100,7 +67,7 @@ struct Picture {
 };
 
 // A scene that has been loaded, drawn row by row to a sink.
-template <class N, Effects E = everything(scene::Settings::max_depth)>
+template <class N, Effects E = scene::desktop_effects()>
 Picture draw(uint32_t rows = 4)
 {
     const Scene<N, E> s = storage<N>().template view<E>();

@@ -40,7 +40,7 @@ std::string lit(const std::string& colour, double right, double bottom, double l
     return text;
 }
 
-template <class N, Effects E = everything(scene::Settings::max_depth)>
+template <class N, Effects E = scene::desktop_effects()>
 Pixel pixel(uint32_t i, uint32_t j, uint64_t* samples)
 {
     const Scene<N, E> s = storage<N>().template view<E>();

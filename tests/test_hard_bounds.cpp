@@ -67,8 +67,8 @@ TEST(Bounds, LightTooFarForASquareInFloatIsSeen)
     auto& storage = qray::test::kept<scene::Storage<Float>>();
     ASSERT_TRUE(scene::parse("far light", text.data(), text.size(), description, error)) << error.text;
     ASSERT_TRUE(scene::Builder<Float>(description, {}, storage).build(error)) << error.text;
-    const auto s = storage.view<everything(6)>();
-    CountRays rays;
+    const auto s = storage.view<scene::desktop_effects()>();
+    test::RayCount rays;
     EXPECT_NEAR(trace(s, s.camera.ray(s.camera.row(0)), rays, EyeSample{}).x, 0.3f, 1e-6f);
 }
 

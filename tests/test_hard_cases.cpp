@@ -375,7 +375,7 @@ TYPED_TEST(HardCases, SurfaceInALatticePlaneIsClean)
 template <class N>
 uint64_t samples_of(uint32_t i, uint32_t j, uint64_t* rays = nullptr)
 {
-    const auto s = storage<N>().template view<everything(scene::Settings::max_depth)>();
+    const auto s = storage<N>().template view<scene::desktop_effects()>();
     RayCount count;
     (void)render_pixel(s, i, j, count);
     if (rays != nullptr)

@@ -59,14 +59,6 @@ constexpr Effects nff_effects()
     return e;
 }
 
-// All that a desktop's scene can call for: what takes little room is for compiled ones.
-constexpr Effects all_effects()
-{
-    Effects e = everything(scene::Settings::max_depth);
-    e.triangle = e.smooth_triangle = e.flat_tree = false;
-    return e;
-}
-
 static_assert(scene::Settings::max_levels <= max_adaptive_levels);
 
 template <class N>
@@ -102,7 +94,7 @@ struct RendererOf {
     };
     static const Kernel& kernel()
     {
-        constexpr Effects balls = balls_effects(), nff = nff_effects(), all = all_effects();
+        constexpr Effects balls = balls_effects(), nff = nff_effects(), all = scene::desktop_effects();
         static constexpr Kernel kernels[] = {
             {"balls", balls, flat_rows_of<N, balls>},
             {"nff", nff, rows_of<N, nff>},

@@ -4,6 +4,7 @@
 
 #include <qray/scene/scene.hpp>
 
+#include "settings.hpp"
 #include "shapes.hpp"
 #include "split.hpp"
 
@@ -24,6 +25,14 @@ struct Array {
             return {};
     }
 };
+
+// All that a desktop's scene can call for: what takes little room is for compiled ones.
+constexpr Effects desktop_effects(uint8_t depth = Settings::max_depth)
+{
+    Effects e = everything(depth);
+    e.triangle = e.smooth_triangle = e.flat_tree = false;
+    return e;
+}
 
 template <class N>
 struct Storage {

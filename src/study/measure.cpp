@@ -31,7 +31,7 @@ struct Pixels {
 template <class N>
 uint64_t draw(const Scattered& combs, uint32_t k, Pixels& pixels, size_t to)
 {
-    const auto view = cli::storage_of<N>().template view<everything(scene::Settings::max_depth)>();
+    const auto view = cli::storage_of<N>().template view<scene::desktop_effects()>();
     const Camera<N>& c = view.camera;
     const auto [x, y] = combs(k);
     RayCounts counts;

@@ -4,7 +4,7 @@ SECONDS  ?= 60
 FUZZ_FLAGS := -std=c++20 -O1 -g1 -ffp-contract=off -fno-math-errno -Iinclude -Isrc \
     -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all $(filter-out -fno-gnu-unique,$(LANES))
 
-build/fuzz_scene: tests/fuzz/fuzz_scene.cpp $(wildcard src/scene/*.?pp src/scene/*/*.hpp include/qray/*/*.hpp)
+build/fuzz_scene: tests/fuzz/fuzz_scene.cpp tests/tracer.cpp $(wildcard src/scene/*.?pp src/scene/*/*.hpp include/qray/*/*.hpp)
 	@echo "  compile $<"
 	@mkdir -p $(@D)
 	@$(FUZZ_CXX) $(FUZZ_FLAGS) $(filter %.cpp,$^) -o $@

@@ -4,11 +4,8 @@
 #include <cstdlib>
 #include <string>
 
-#include <qray/picture/render.hpp>
-
-#include "../roomy.hpp"
+#include "../tracer.hpp"
 #include "random_scene.hpp"
-#include "scene/builder.hpp"
 
 namespace hostile {
 
@@ -17,11 +14,6 @@ struct SceneTally {
     uint64_t negative = 0, brighter = 0, too_many_rays = 0;
     double most = 0; // the brightest sample of a scene that conserves energy
     std::string first_fault;
-};
-
-struct CountRays {
-    uint64_t rays[4] = {};
-    void operator()(qray::RayKind kind) { rays[static_cast<int>(kind)]++; }
 };
 
 // The light of every sample must be in range, the number of rays within that of a binary tree of the greatest depth.
@@ -38,10 +30,10 @@ void draw_scene(const std::string& name, const std::string& text, const qray::sc
         || !scene::Builder<N>(description, settings, storage).build(error))
         return;
     tally.accepted++;
-    const auto s = storage.template view<everything(6)>();
+    const auto s = storage.template view<scene::desktop_effects()>();
     const Camera<N>& c = s.camera;
     for (int32_t k = 0; k < 4; k++) {
-        CountRays rays;
+        test::RayCount rays;
         const auto light = trace(s, eye_ray(s, c.row(k / 2 == 0 ? -1 : 1) + c.right * (k % 2 == 0 ? -1 : 1)), rays,
                                  EyeSample{static_cast<uint32_t>(k), 0});
         const double scaled = std::ldexp(1, s.exposure);

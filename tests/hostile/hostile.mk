@@ -12,7 +12,7 @@ build/obj/tests/hostile/%.o: tests/hostile/%.cpp build/obj/flags
 soak: build/hostile/hostile
 	@build/hostile/hostile --rays $(or $(RAYS),100000000) --seed $(or $(SEED),2) --threads $(shell nproc)
 
-build/hostile/scenes: tests/hostile/scenes.cpp $(SANITIZED)
+build/hostile/scenes: tests/hostile/scenes.cpp tests/tracer.cpp $(SANITIZED)
 	@echo "  compile $< with sanitizers"
 	@mkdir -p $(@D)
 	@$(CXX) $(SANITIZE) $(LANES) -O1 $^ -o $@

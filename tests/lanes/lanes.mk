@@ -4,12 +4,13 @@ LANE_TESTS := $(addprefix build/lanes/,test_lanes test_vec test_hostile test_tre
     $(addprefix build/sanitized/lanes/,test_lanes test_hard_bounds test_fuzz_corpus)
 TESTS += $(if $(LANES),$(if $(shell grep -m1 -w avx2 /proc/cpuinfo 2> /dev/null),$(LANE_TESTS)))
 
-build/lanes/%: build/obj/lanes/%.o $(LIBRARY)
+build/lanes/%: build/obj/lanes/%.o build/obj/lanes/tracer.o $(LIBRARY)
 	@mkdir -p $(@D)
 	@$(CXX) $(OPTIMISE) $^ $(TEST_LIBS) -o $@
-build/sanitized/lanes/%: build/sanitized/obj/lanes/%.o $(SANITIZED)
+build/sanitized/lanes/%: build/sanitized/obj/lanes/%.o build/sanitized/obj/lanes/tracer.o $(SANITIZED)
 	@mkdir -p $(@D)
 	@$(CXX) -fsanitize=address,undefined $^ $(TEST_LIBS) -o $@
+build/obj/lanes/tracer.o build/sanitized/obj/lanes/tracer.o: tests/tracer.cpp
 build/obj/lanes/test_lanes.o build/sanitized/obj/lanes/test_lanes.o: tests/lanes/test_lanes.cpp
 build/obj/lanes/test_vec.o: tests/test_vec.cpp
 build/obj/lanes/test_hostile.o: tests/test_hostile.cpp
@@ -19,8 +20,8 @@ build/sanitized/obj/lanes/test_fuzz_corpus.o: tests/test_fuzz_corpus.cpp
 build/obj/lanes/%.o: build/obj/flags
 	@echo "  compile $*.cpp in lanes"
 	@mkdir -p $(@D)
-	@$(CXX) $(FLAGS) $(LANES) -DQRAY_ALONE -c $(firstword $(filter %.cpp,$^)) -o $@
+	@$(CXX) $(FLAGS) $(LANES) -DQRAY_LANES_ALONE -c $(firstword $(filter %.cpp,$^)) -o $@
 build/sanitized/obj/lanes/%.o: build/obj/flags
 	@echo "  compile $*.cpp in lanes with sanitizers"
 	@mkdir -p $(@D)
-	@$(CXX) $(SANITIZE) $(LANES) -DQRAY_ALONE -O1 -c $(firstword $(filter %.cpp,$^)) -o $@
+	@$(CXX) $(SANITIZE) $(LANES) -DQRAY_LANES_ALONE -Og -c $(firstword $(filter %.cpp,$^)) -o $@

@@ -1,0 +1,3 @@
+// What tracer.hpp declares, for all tests.
+#define QRAY_ONCE
+#include "tracer.hpp"
