@@ -12,7 +12,7 @@ namespace {
 
 using namespace hostile;
 
-constexpr uint64_t scenes = 10000; // of either kind in each number system
+constexpr uint64_t scenes = 5000; // of either kind in each number system
 
 template <class N>
 struct BoundsTest : ::testing::Test {};
