@@ -115,4 +115,41 @@ TYPED_TEST(LightSurfaces, KnowOnWhichSideTheLightIs)
     }
 }
 
+// A lamp next to the plane of a triangle, within its extent and beside its outline, where nothing is before it: with a
+// tree that asks outlines first, with one that does not, and without.
+TYPED_TEST(LightSurfaces, OfAFigureEndAtItsOutline)
+{
+    using N = TypeParam;
+    constexpr auto effects = [](bool tree, bool flat_tree) {
+        Effects e;
+        e.polygon = e.patch = e.triangle = e.smooth_triangle = e.light = e.panel = e.shadow = e.light_surface = true;
+        e.tree = tree;
+        e.flat_tree = flat_tree;
+        return e;
+    };
+    std::string others; // enough for a tree
+    for (int i = 0; i < 45; i++)
+        others += " p 3" + text_of({-8, 0.1 * i, -8}) + text_of({-7, 0.1 * i, -8}) + text_of({-8, 0.1 * i, -7});
+    const char* const figures[] = {" p 3 -2 2 -2 2 2 -2 -2 2 2", " p 4 -2 2 -2 2 2 -2 -1 2 -1 -2 2 2",
+                                   " pp 3 -2 2 -2 0 1 0 2 2 -2 0 1 0 -2 2 2 0 1 0"};
+    for (const char* const figure : figures)
+        for (const double steps : {-0.5, -0.01, 0.01, 0.5})
+            for (const char* const light : {"l ", "panel 1 "}) {
+                SCOPED_TRACE(figure);
+                const double off = steps * make<N>::length_ulp(), side = steps > 0 ? 1 : -1; // seen from the other
+                const std::string at = std::to_string(2 - side);
+                const std::string text = "ambientlight 0 0 0 " + (light + text_of({1.5, 2 + off, 1.5}).substr(1))
+                    + (*light == 'p' ? " 1e-6 0 0 0 0 1e-6" : "") + " 1 1 1 v from 1.5 " + at + " 1.4 at 1.5 "
+                    + std::to_string(2 - 2 * side) + " 1.5 up 0 0 1 angle 20 hither 1 resolution 1 1 p 4"
+                    + text_of({-8, 2 - 2 * side, -8}) + text_of({8, 2 - 2 * side, -8}) + text_of({8, 2 - 2 * side, 8})
+                    + text_of({-8, 2 - 2 * side, 8}) + figure + others;
+                ASSERT_TRUE(loaded<N>(text));
+                EXPECT_TRUE(storage<N>().effects.light_surface);
+                EXPECT_GT((light_at<N, effects(false, false)>(0, 0).x), 0.9);
+                EXPECT_GT((light_at<N, effects(true, false)>(0, 0).x), 0.9);
+                ASSERT_TRUE(loaded<N>(text, compiled()));
+                EXPECT_GT((light_at<N, effects(false, true)>(0, 0).x), 0.9);
+            }
+}
+
 } // namespace

@@ -22,7 +22,7 @@ public:
     }
 
     // With energy: no surface gives back more light than reaches it, and no light is brighter than 1, all together.
-    std::string text(bool with_energy)
+    std::string text(bool with_energy, uint32_t least_objects = 1)
     {
         energy = with_energy;
         share = 1;
@@ -44,7 +44,7 @@ public:
             s += "shadows off\n";
         if (random.chance(0.2))
             s += "far " + number(std::fabs(coordinate()) + 1e-50) + "\n";
-        const uint32_t objects = 1 + random.below(12);
+        const uint32_t objects = least_objects + random.below(12);
         for (uint32_t i = 0; i < objects; i++) {
             if (random.chance(0.5))
                 material();

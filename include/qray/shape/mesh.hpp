@@ -103,6 +103,12 @@ QRAY_NOINLINE constexpr bool encloses(const CornerFrom<N>& corner, const Ray<N>&
     return encloses<N>(3, corner, ray.direction);
 }
 
+template <class N, bool Smooth>
+constexpr bool encloses(const MeshTriangle<N, Smooth>& s, const Corners<N>& corners, const Ray<N>& ray)
+{
+    return encloses(CornerFrom<N>{s.corners, corners.points, ray.origin}, ray);
+}
+
 // Where a ray meets a triangle that its line passes through.
 template <class N>
 QRAY_NOINLINE constexpr bool meets(const CornerFrom<N>& corner, const LeanNormal<N>& lean, const Ray<N>& ray,

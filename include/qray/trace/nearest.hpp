@@ -104,6 +104,16 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
     }
 }
 
+// Does the ray's line pass inside of what is met in its plane alone? It is not asked of others.
+template <class N, Effects E, class S>
+constexpr bool passes_inside(const Scene<N, E>& scene, const S& shape, const Ray<N>& ray)
+{
+    if constexpr (S::has_corners)
+        return encloses(shape, corners_of(scene), ray);
+    else
+        return true;
+}
+
 // How often a ray crosses a shape before a light at `distance`. Where lights lie on surfaces, `light` is its number.
 template <class N, Effects E, class S>
 QRAY_INLINE constexpr int crossings_before(const Scene<N, E>& scene, const S& shape, const Ray<N>& ray,
@@ -120,7 +130,7 @@ constexpr int crossings_before(const Scene<N, E>& scene, const S& shape, const R
         if (surface.light != light || !(surface.tag == tag_of(shape)))
             continue;
         const Ray<N> back = from_light(surface, scene.lights[light].at, ray);
-        const int at_light = back.outward ? surface.side < 0 : surface.side > 0;
+        const int at_light = (back.outward ? surface.side < 0 : surface.side > 0) && passes_inside(scene, shape, ray);
         // Between two points on one surface, which is flat or convex, the way does not cross it.
         return at_light + (ray.from == tag_of(shape) ? 0 : crossings(shape, corners_of(scene), back, distance));
     }
@@ -138,7 +148,8 @@ constexpr int crossings_before(const Scene<N, E>& scene, const S& shape, const R
     for (uint32_t i = 0; i < scene.light_surfaces.count; i++) {
         const LightSurface<N>& surface = scene.light_surfaces[i];
         if (surface.light == ~panel.value && surface.tag == tag_of(shape)) // it is flat, and the way meets it nowhere else
-            return dot<N>(surface.normal, ray.direction) <= typename N::Cosine{} ? surface.side < 0 : surface.side > 0;
+            return (dot<N>(surface.normal, ray.direction) <= typename N::Cosine{} ? surface.side < 0 : surface.side > 0)
+                && passes_inside(scene, shape, ray);
     }
     return crossings_before(scene, shape, ray, distance);
 }
