@@ -1,4 +1,6 @@
 // The trees only leave out what a ray cannot meet: with one and without it every hit is the same.
+// RAYS and SCENES in the environment: how many of each; see tests/hostile/hostile.mk.
+#include "hostile/random_scene.hpp"
 #include "scene_helpers.hpp"
 
 namespace {
@@ -191,10 +193,16 @@ private:
 };
 
 #if defined(__SANITIZE_ADDRESS__)
-constexpr int hostile_rays = 3000;
+constexpr int few_rays = 3000, few_scenes = 12;
 #else
-constexpr int hostile_rays = 500000;
+constexpr int few_rays = 500000, few_scenes = 200;
 #endif
+int as_told(const char* name, int otherwise)
+{
+    const char* const told = std::getenv(name);
+    return told != nullptr ? std::atoi(told) : otherwise;
+}
+const int hostile_rays = as_told("RAYS", few_rays), random_scenes = as_told("SCENES", few_scenes);
 
 template <class N, Over tree>
 void expect_hostile_rays_hit_the_same()
@@ -254,6 +262,144 @@ TYPED_TEST(TreeTest, CoincidentObjectsAreToldApartByTheirPlace)
     };
     find_first.template operator()<Over::desktop>();
     find_first.template operator()<Over::compiled>();
+}
+
+// A place on an object, or within rounding of it, or beside its outline.
+Vec3 place_at(Random& random, const scene::Description& d, const scene::Object& o)
+{
+    const auto from = [](const scene::Vec3d& v) { return Vec3{v.x, v.y, v.z}; };
+    const auto share = [&random] { return random.uniform(-0.2, 1.2); };
+    const Vec3 a = from(o.a), b = from(o.b), way = random.direction();
+    Vec3 at = a, out = way;
+    double size = std::min(o.ra, 1e15);
+    if (o.count != 0) {
+        const scene::Vec3d* const v = d.vertices + o.vertex;
+        at = from(v[0]) + from(v[1] - v[0]) * share() + from(v[2] - v[1]) * share();
+        out = from(unit(across(v, o.count)));
+        size = scene::length(v[1] - v[0]);
+    } else if (o.kind == Kind::disc) {
+        out = from(unit(o.b));
+        at = a + cross(out, way) * (scene::is_endless(o) ? 1 : o.ra * share());
+    } else if (o.kind == Kind::sphere) {
+        at = a + way * o.ra;
+    } else if (const double along = share(); length(cross(b - a, way)) > 0) {
+        at = a + (b - a) * along + unit(cross(b - a, way)) * (o.ra + (o.rb - o.ra) * along);
+    }
+    constexpr double off[] = {0, 1e-10, 1e-8, 1e-7, 1e-6, 1e-4, 1e-2};
+    return at + out * (size * off[random.bits() % 7] * random.uniform(-1, 1));
+}
+
+constexpr Effects pictures(Over tree)
+{
+    Effects e = shapes(tree);
+    e.light = e.sun = e.panel = e.shadow = e.see_through = e.highlight = true;
+    e.mirror = e.transmit = e.eye_surface = e.light_surface = true;
+    e.triangle = e.smooth_triangle = tree == Over::compiled;
+    return e;
+}
+
+TYPED_TEST(TreeTest, PicturesOfRandomScenesAreTheSame)
+{
+    using N = TypeParam;
+    scene::Settings desktop, board = compiled();
+    desktop.width = board.width = 16;
+    desktop.height = board.height = 12;
+    auto& s = storage<N>();
+    int drawn = 0, lit = 0;
+    for (int i = 0; i < random_scenes; i++) {
+        SCOPED_TRACE(i);
+        Random random(3000 + static_cast<uint64_t>(i));
+        const std::string text =
+            hostile::RandomScene(3000 + static_cast<uint64_t>(i)).text(false, 20 + static_cast<uint32_t>(i % 70));
+        scene::Error error;
+        auto& d = description();
+        if (!parse("test.nff", text.data(), text.size(), d, error))
+            continue;
+        for (uint32_t k = 0; k < d.light_count && i % 4 != 0; k++)
+            if (!d.lights[k].sun) {
+                const Vec3 at = place_at(random, d, d.objects[random.bits() % d.object_count]);
+                d.lights[k].at = {at.x, at.y, at.z};
+            }
+        if (!scene::Builder<N>(d, desktop, s).build(error))
+            continue;
+        drawn++;
+        lit += s.effects.light_surface;
+        const Picture without = draw<N, pictures(Over::none)>(), with = draw<N, pictures(Over::desktop)>();
+        ASSERT_TRUE(with == without) << text;
+        // As on boards: first with polygons and patches, then with what is made of them.
+        std::vector<TreeEntry<N>> entries(2 * s.split_shapes.count + 1);
+        std::vector<uint32_t> tests(2 * s.split_shapes.count);
+        s.entries.data = entries.data();
+        s.tests.data = tests.data();
+        scene::Flattener<N>(s).flatten();
+        ASSERT_TRUE((draw<N, pictures(Over::compiled)>() == without)) << text;
+        ASSERT_TRUE(scene::Builder<N>(d, board, s).build(error));
+        if (s.entries.count != 0) {
+            ASSERT_TRUE((draw<N, pictures(Over::compiled)>() == without)) << text;
+        }
+    }
+    EXPECT_GT(drawn, random_scenes / 3);
+    EXPECT_GT(lit, random_scenes / 20);
+}
+
+// A ball so small that a ray that left it inward starts behind it.
+TYPED_TEST(TreeTest, TheOtherEndOfAShortChordIsFound)
+{
+    using N = TypeParam;
+    ASSERT_TRUE(loaded<N>("v from 0 0 8 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 3 3 s 0 0 0 0.05"));
+    const auto with = storage<N>().template view<shapes(Over::desktop)>();
+    const auto without = storage<N>().template view<shapes(Over::none)>();
+    const Sphere<N>& ball = with.spheres[0];
+    const double r = std::ldexp(value(ball.radius), -ball.fine);
+    Random random(4001);
+    for (int i = 0; i < 1000; i++) {
+        const Vec3 d = random.direction();
+        auto ray = make<N>::ray(value(ball.centre) + d * (r + 2 * make<N>::length_ulp()), d);
+        ray.from = ball.tag;
+        ray.outward = false;
+        Hit<N> a{}, b{};
+        EXPECT_TRUE(nearest(without, ray, b));
+        ASSERT_TRUE(nearest(with, ray, a)) << i;
+        EXPECT_EQ(value(a.t), value(b.t));
+    }
+}
+
+// A cone that is all but a disc: in float its cosine is next to 0, and hits lie beside its rims.
+template <class N, Over tree>
+void expect_flat_cone_is_met_the_same()
+{
+    Random random(4002);
+    ASSERT_TRUE(loaded<N>("v from 0 0 8 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 3 3 c 0 0 0 1 0 4e-9 0 0\n"
+                              + objects(random, 45, 8, 0.01),
+                          compiled(tree == Over::compiled)));
+    const auto with = storage<N>().template view<shapes(tree)>();
+    const auto without = storage<N>().template view<shapes(Over::none)>();
+    const Vec3 middle = without.cones.count != 0 ? value(without.cones[0].middle) : Vec3{};
+    const double k = value(with.camera.eye.z) / 8;
+    for (int i = 0; i < 3000; i++) {
+        const Vec3 to = middle + unit(cross(Vec3{0, 1, 0}, random.direction())) * random.uniform(0.8 * k, 1.5 * k);
+        const Vec3 from = to + random.direction() * k;
+        const auto ray = make<N>::ray(from, to - from);
+        Hit<N> a{}, b{};
+        ASSERT_EQ(nearest(with, ray, a), nearest(without, ray, b)) << i;
+        EXPECT_EQ(value(a.t), value(b.t)) << i;
+    }
+}
+TYPED_TEST(TreeTest, FlatConesAreMetTheSame)
+{
+    expect_flat_cone_is_met_the_same<TypeParam, Over::desktop>();
+    expect_flat_cone_is_met_the_same<TypeParam, Over::compiled>();
+}
+
+// A compiled scene of a few shapes has none. Whoever asks for it all the same sees nothing, and sees it at once.
+TYPED_TEST(TreeTest, NoneEndsAtOnce)
+{
+    using N = TypeParam;
+    ASSERT_TRUE(loaded<N>("v from 0 0 8 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 1 1 s 0 0 0 1", compiled()));
+    EXPECT_EQ(storage<N>().entries.count, 0u);
+    const auto scene = storage<N>().template view<shapes(Over::compiled)>();
+    Hit<N> hit{};
+    EXPECT_FALSE(nearest(scene, make<N>::ray(value(scene.camera.eye), {0, 0, -1}), hit));
 }
 
 } // namespace

@@ -46,6 +46,7 @@ public:
         camera();
         eye_surface();
         s.entries.count = 0;
+        s.entries.data[0] = last_entry<N>; // no tree: a walk ends at once
         if (flat)
             Flattener<N>(s).flatten();
         else

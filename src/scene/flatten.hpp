@@ -12,6 +12,9 @@ template <class N>
 inline constexpr uint32_t least_for_tree = NarrowFixed<N> ? 40 : 24;
 
 template <class N>
+inline constexpr TreeEntry<N> last_entry{0, 0, 0, UINT16_MAX, UINT16_MAX, UINT16_MAX, TreeEntry<N>::last};
+
+template <class N>
 class Flattener {
 public:
     explicit Flattener(Storage<N>& storage) : s(storage) {}
@@ -23,7 +26,7 @@ public:
         choose(count);
         if (count != 0)
             entries();
-        s.entries.push() = {0, 0, 0, UINT16_MAX, UINT16_MAX, UINT16_MAX, TreeEntry<N>::last};
+        s.entries.push() = last_entry<N>;
     }
 
 private:

@@ -88,7 +88,7 @@ struct Storage {
             cut(triangles, once * shapes[static_cast<int>(Kind::polygon)]);
             cut(smooth_triangles, once * shapes[static_cast<int>(Kind::patch)]);
             cut(corner_slots, once * (2 * d.vertex_count + 1));
-            cut(entries, once * 2 * all);
+            cut(entries, 1 + once * 2 * all);
             cut(order, all);
             cut(tests, once * 2 * all);
             cut(vertices, (1 + once) * d.vertex_count);

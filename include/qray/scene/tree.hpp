@@ -3,11 +3,12 @@
 // It only says which shapes a ray may meet: conservatively, in binary32, whatever the number system. The proof: let a ray
 // o + t d, |d_i| <= 1, |o_i| <= 64, be at a point of a shape at t in [0, 128], and s be the distance from there to a side
 // of the shape's box at `low`, which is behind on an axis with d_i > 0; u = 2^-24. What enters() finds for that side is
-//   (low k - c)(1 + e) with k = (1 + e')/d and c = o k (1 + e''), |e| <= u each, twice that for k
-// which, with another (1 + e) on low k where a product is rounded before the sum, is at most
-//   (t - (s - 128 u)/d)(1 + 3.01 u) <= t + 386 u - (s - 128 u)
-// where it is positive. So where s >= 515 u plus what o and d lost on the way to binary32 (64 u, 128 u), and what a
-// component of d below `least` was raised by (128 least), less than 4.3e-5 in all, it is at most t. The far sides are
+//   (low k - c)(1 + e) with k = (1 + e')/d and c = o k (1 + e''), |e| <= u each, twice that for k and for c, to which
+// `behind` is added, as it is to all t here; which, with another (1 + e) on low k where a product is rounded before the
+// sum, is at most
+//   (t - (s - 192 u)/d)(1 + 3.01 u) <= t + 386 u - (s - 192 u)
+// where it is positive. So where s >= 579 u plus what o and d lost on the way to binary32 (64 u, 128 u), and what a
+// component of d below `least` was raised by (128 least), less than 4.7e-5 in all, it is at most t. The far sides are
 // at least t by the same sum: the ray enters the box. The builder's slack is larger, by what a hit may lie outside its
 // shape: see tree_builder.hpp.
 #pragma once
@@ -33,7 +34,7 @@ struct BoxNode {
 // In the units of BallRay.
 struct BallNode {
     Bounds x, y, z;
-    Bounds reach;  // the radius, by the length of a direction
+    Bounds reach;  // the radius, and hit_slack, by the length of a direction
     Bounds square; // of that; -infinity: no ball
 };
 
@@ -101,7 +102,7 @@ public:
         const BoundParts most = size > least ? size : least + BoundParts{};
         const BoundSigns some = __builtin_bit_cast(BoundSigns, most) | sign;
         const BoundParts k = (1.0f / bound_ulp<N, Unit>()) / __builtin_bit_cast(BoundParts, some);
-        const BoundParts c = bound_parts<N>(ray.origin) * (k * -bound_ulp<N, Length>());
+        const BoundParts c = bound_parts<N>(ray.origin) * (k * -bound_ulp<N, Length>()) + behind;
         kx = all_bounds(k[0]);
         ky = all_bounds(k[1]);
         kz = all_bounds(k[2]);
@@ -124,11 +125,11 @@ public:
         return mask_bits(from <= to);
     }
 
-    // A limit, and by how much a hit that is reported before it may lie behind: a plane's, where it is seen almost edge
-    // on, and one whose direction is not quite unit.
+    // A ray is followed from so far behind its origin on, and so far beyond a limit.
+    static constexpr float behind = hit_slack<N> / 512.0f;
     static QRAY_INLINE float beyond(typename N::Length limit)
     {
-        constexpr float more = NarrowFixed<N> ? 1.0f : 1.0f / 16;
+        constexpr float more = 2 * behind;
         if constexpr (N::is_fixed)
             return static_cast<float>(limit.raw) * bound_ulp<N, typename N::Length>() + more;
         else

@@ -59,9 +59,10 @@ public:
         if (N::is_fixed || limit < typename N::Length{127})
             end = steps<step_frac>(limit) + 1; // rounded up
         // What is cut off the direction is worth 2 steps, what is cut off the product and the origin 1 each.
-        end = end >= endless ? endless : (end * magnitude(along) >> 15) + 4;
-        low = along < 0 ? x - end : x;
-        high = along < 0 ? x + 1 : x + end;
+        static_assert(step_frac == 9); // as hit_slack has it
+        end = end >= endless ? endless : (end * magnitude(along) >> 15) + 4 + hit_slack<N>;
+        low = x - (along < 0 ? end : hit_slack<N>);
+        high = x + (along < 0 ? 1 + hit_slack<N> : end);
     }
 
     // Is the line surely beside a triangle?

@@ -32,6 +32,11 @@ struct EnclosingCorners : Corners<N> {
     static constexpr bool enclose = true;
 };
 
+// In 1/512 of a length, how far along the ray a hit may be reported from where the ray's line passes through the shape,
+// for trees: src/scene/tree_builder.hpp shows why.
+template <class N>
+inline constexpr int32_t hit_slack = NarrowFixed<N> ? 128 : 32;
+
 template <class N>
 struct RejectRay;
 

@@ -43,12 +43,14 @@ QRAY_INLINE constexpr bool chord(const Sphere<N>& s, const Ray<N>& ray, Leaves l
         if (!Near && surely_missed(s, RejectRay<N>(ray)))
             return false;
     } else if constexpr (!Near) {
-        const auto reach = N::coarse_above(s.radius, s.fine);
-        if (middle < -reach)
-            return false;
-        const Point<N> p = along<N>(middle, ray.direction) - v;
-        if (leaving != Leaves::inward && norm2<N>(p) > reach * reach)
-            return false;
+        if (leaving != Leaves::inward) {
+            const auto reach = N::coarse_above(s.radius, s.fine);
+            if (middle < -reach)
+                return false;
+            const Point<N> p = along<N>(middle, ray.direction) - v;
+            if (norm2<N>(p) > reach * reach)
+                return false;
+        }
     }
     from_centre = from_exact(fine_offset<N>(middle, ray.direction, v, s.fine), s.rounded);
     const auto p2 = norm2<N>(from_centre);

@@ -129,6 +129,9 @@ constexpr int crossings_before(const Scene<N, E>& scene, const S& shape, const R
         const LightSurface<N>& surface = scene.light_surfaces[i];
         if (surface.light != light || !(surface.tag == tag_of(shape)))
             continue;
+        if constexpr (E.tree && !S::has_corners) // the others have been asked
+            if (surely_missed(shape, RejectRay<N>(ray)))
+                return 0;
         const Ray<N> back = from_light(surface, scene.lights[light].at, ray);
         const int at_light = (back.outward ? surface.side < 0 : surface.side > 0) && passes_inside(scene, shape, ray);
         // Between two points on one surface, which is flat or convex, the way does not cross it.

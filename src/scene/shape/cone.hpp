@@ -87,14 +87,16 @@ struct Host<Cone> : HostOfShape {
     static Extent box(const Cone<N>& s, const Corners<N>&)
     {
         const double down = ldexp(1, -s.fine), bound = value(s.bound) * down;
+        // All that is known of a hit where the cone is so flat that its roundings, divided by the cosine, are large.
+        const double most = M_SQRT2 * bound;
         if constexpr (NarrowFixed<N>) // too coarse a cosine to divide by
-            return ball_extent(value(s.middle), bound);
+            return ball_extent(value(s.middle), value(s.cosine) < 0.25 ? most : bound);
         Extent box;
         const Vec3d axis = unit(value(s.axis));
         for (const double half : {-value(s.half) * down, value(s.half) * down}) {
             // The test's own roundings, for each of its products, are divided by the cosine as well.
             const double r = (value(s.rho0) * down + value(s.sine) * half + 1e-4) / value(s.cosine);
-            box.add(value(s.middle) + axis * half, circle_across(axis, fmin(bound, fmax(0, r))));
+            box.add(value(s.middle) + axis * half, circle_across(axis, fmin(most, fmax(0, r))));
         }
         return box;
     }

@@ -88,6 +88,27 @@ inline Above lies_in_figure(const Vec3d* corners, uint32_t count, const Vec3d& p
     return length(g) > 0 ? above_plane(corners[0], unit(g), p, off) : Above{};
 }
 
+// How far beside its corners a ray may meet a figure because they are not in one plane. A ray whose cosine with the
+// normal is c meets it as far as height / c from where its line passes through their hull; what is flatter than 1/64 is
+// not told more. What rounding makes of corners in a plane counts as none, as does what is little beside the figure and
+// beside hit_slack.
+template <class N>
+double reach_beside(const Point<N>* corners, uint32_t count, const Direction<N>& normal)
+{
+    double height = 0, size = 0;
+    for (uint32_t i = 1; count > 3 && i < count; i++) {
+        const Vec3d v = value(corners[i]) - value(corners[0]);
+        height = fmax(height, fabs(dot(v, value(normal))));
+        size = fmax(size, length(v));
+    }
+    double rounding;
+    if constexpr (N::is_fixed)
+        rounding = ldexp(16, -N::Length::frac);
+    else
+        rounding = 512 * static_cast<double>(N::epsilon);
+    return height > rounding && height > fmin(size / 128, 0x1p-10) ? 64 * height : 0;
+}
+
 // The ball around the middle of the extent.
 template <class N>
 struct CornerBall {

@@ -42,15 +42,19 @@ struct Host<Polygon> : HostOfCorners {
             return b.leave_out(o);
         }
         const auto around = corner_ball(b, v, o.count);
-        b.s.polygons.push() = {Convert<N>::direction(unit(g)), around.middle, around.radius, first, o.count,
-                               make_tag(place, o.fill)};
+        const Direction<N> normal = Convert<N>::direction(unit(g));
+        constexpr double whole_scene = 124;
+        const double beside = reach_beside<N>(b.s.vertices.data + first, o.count, normal);
+        const auto radius = Convert<N>::length(fmin(value(around.radius) + beside, whole_scene));
+        b.s.polygons.push() = {normal, around.middle, radius, first, o.count, make_tag(place, o.fill)};
     }
     template <class N>
     static Extent box(const Polygon<N>& s, const Corners<N>& corners)
     {
         Extent box;
+        const double beside = reach_beside<N>(corners.points + s.first, s.count, s.normal);
         for (uint32_t i = s.first; i != s.first + s.count; i++)
-            box.add(value(corners.points[i]));
+            box.add(value(corners.points[i]), {beside, beside, beside});
         return box;
     }
 
