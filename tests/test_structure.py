@@ -77,8 +77,8 @@ def run(*command):
 
 
 def includes(name):
-    """(system headers, own headers)"""
-    found = re.findall(r'^[ \t]*#[ \t]*include[ \t]*(<[^>]*>|"[^"]*")', source(name), re.M)
+    """(system headers, own headers); a name with a space is a message to those whose compiler is too old"""
+    found = re.findall(r'^[ \t]*#[ \t]*include[ \t]*(<[^> ]*>|"[^" ]*")', source(name), re.M)
     own = [os.path.normpath(os.path.join(os.path.dirname(name), i[1:-5])) for i in found if i.startswith('"')]
     return [i for i in found if i.startswith("<")], own
 
@@ -123,6 +123,19 @@ def test_compile_alone(folder):
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             for name, faults in zip(names(), pool.map(compile_one, [(compiler, n) for n in names()])):
                 check(f"{name}.hpp compiles alone with {compiler}", faults)
+
+
+def test_standard(folder):
+    """An older standard is told apart by one line that names the flag, and by no others but the compiler's end."""
+    path = os.path.join(folder, "standard.cpp")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("#include <qray/qray.hpp>\nqray::Pixel pixel;\n")
+    for compiler in filter(shutil.which, COMPILERS):
+        for standard in ["gnu++98", "c++11", "gnu++17", "c++20", "gnu++20"]:
+            result = run(compiler, "-std=" + standard, "-I" + os.path.join(ROOT, "include"), "-fsyntax-only", path)
+            lines = re.findall(r"error: .*", result.stdout)
+            good = not lines if "20" in standard else len(lines) == 2 and all("-std=c++20" in line for line in lines)
+            check(f"{compiler} says what {standard} lacks", [] if good else [result.stdout[:2000]])
 
 
 def lines_with(pattern, only=None):
@@ -280,6 +293,7 @@ def main():
         test_the_test(folder)
         test_includes()
         test_words()
+        test_standard(folder)
         test_compile_alone(folder)
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             jobs = [pool.submit(test_object, folder, system) for system in SYSTEMS]
