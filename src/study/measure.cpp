@@ -37,7 +37,7 @@ uint64_t draw(const Scattered& combs, uint32_t k, Pixels& pixels, size_t to)
     RayCounts counts;
     for (uint32_t i = 0; i < combs.length(); i++, to++) {
         const uint32_t column = x + i * combs.stride();
-        Rgb888::put(render_pixel(view, column, y, counts), pixels.rgb + 3 * to);
+        Rgb888::put(render_pixel(view, column, y, counts), column, y, pixels.rgb + 3 * to);
         const auto centre = [&c](uint32_t place, uint32_t places) {
             return c.grid * static_cast<int32_t>(2 * place + 1 - places);
         };

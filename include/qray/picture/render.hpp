@@ -8,8 +8,8 @@
 namespace qray {
 
 // Pixel (i, j), i from the left, j from the top.
-template <class N, Effects E, class Count>
-constexpr Pixel render_pixel(const Scene<N, E>& scene, uint32_t i, uint32_t j, Count& count)
+template <class N, Effects E, class Count = NoCount>
+constexpr Pixel render_pixel(const Scene<N, E>& scene, uint32_t i, uint32_t j, Count&& count = Count{})
 {
     const Camera<N>& c = scene.camera;
     const int32_t n = c.grid;
@@ -26,33 +26,32 @@ constexpr Pixel render_pixel(const Scene<N, E>& scene, uint32_t i, uint32_t j, C
         return pixel_at(scene, c.row(y) + c.right * x, count);
 }
 
-template <class N, Effects E>
-constexpr Pixel render_pixel(const Scene<N, E>& scene, uint32_t i, uint32_t j)
-{
-    NoCount none;
-    return render_pixel(scene, i, j, none);
-}
-
-// Row j into out: width * Format::bytes bytes.
-template <class Format, class N, Effects E, class Count>
-constexpr void render_row(const Scene<N, E>& scene, uint32_t j, uint8_t* out, Count& count)
+// Row j into out: row_bytes<Format>(width) bytes.
+template <class Format, class N, Effects E, class Count = NoCount>
+constexpr void render_row(const Scene<N, E>& scene, uint32_t j, uint8_t* out, Count&& count = Count{})
 {
     for (uint32_t i = 0; i < scene.camera.width; i++)
-        Format::put(render_pixel(scene, i, j, count), out + i * Format::bytes);
+        Format::put(render_pixel(scene, i, j, count), i, j, out + i / Format::pixels * Format::bytes);
 }
-template <class Format, class N, Effects E>
-constexpr void render_row(const Scene<N, E>& scene, uint32_t j, uint8_t* out)
+
+// The rectangle with corner (x, y), which lies in the picture, into out: row_bytes<Format>(width) bytes for each of its
+// rows. x is a multiple of Format::pixels.
+template <class Format, class N, Effects E, class Count = NoCount>
+constexpr void render_rect(const Scene<N, E>& scene, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
+                           uint8_t* out, Count&& count = Count{})
 {
-    NoCount none;
-    render_row<Format>(scene, j, out, none);
+    for (uint32_t j = 0; j < height; j++, out += row_bytes<Format>(width))
+        for (uint32_t i = 0; i < width; i++)
+            Format::put(render_pixel(scene, x + i, y + j, count), x + i, y + j,
+                        out + i / Format::pixels * Format::bytes);
 }
 
 // All rows from the top, through the caller's buffer of `rows` rows, 1 or more, to
 // sink(first_row, rows, bytes, byte_count), which returns false to stop. False if it did.
-template <class Format, class N, Effects E, class Sink, class Count>
-constexpr bool render(const Scene<N, E>& scene, uint8_t* buffer, uint32_t rows, Sink&& sink, Count& count)
+template <class Format, class N, Effects E, class Sink, class Count = NoCount>
+constexpr bool render(const Scene<N, E>& scene, uint8_t* buffer, uint32_t rows, Sink&& sink, Count&& count = Count{})
 {
-    const uint32_t stride = scene.camera.width * Format::bytes;
+    const uint32_t stride = row_bytes<Format>(scene.camera.width);
     for (uint32_t j = 0; j < scene.camera.height; j += rows) {
         const uint32_t block = scene.camera.height - j < rows ? scene.camera.height - j : rows;
         for (uint32_t k = 0; k < block; k++)
@@ -62,11 +61,22 @@ constexpr bool render(const Scene<N, E>& scene, uint8_t* buffer, uint32_t rows, 
     }
     return true;
 }
-template <class Format, class N, Effects E, class Sink>
-constexpr bool render(const Scene<N, E>& scene, uint8_t* buffer, uint32_t rows, Sink&& sink)
+
+// All pixels, each once, the coarse picture first: every size-th of every size-th row, then those half as far apart and
+// so on; size is a power of two. To fill(x, y, width, height, pixel), which paints that rectangle, cut at the picture's
+// edge, over what was there, and returns false to stop. False if it did.
+template <class N, Effects E, class Fill, class Count = NoCount>
+constexpr bool render_progressively(const Scene<N, E>& scene, uint32_t size, Fill&& fill, Count&& count = Count{})
 {
-    NoCount none;
-    return render<Format>(scene, buffer, rows, static_cast<Sink&&>(sink), none);
+    const uint32_t width = scene.camera.width, height = scene.camera.height;
+    for (uint32_t done = 0; size != 0; done = size, size /= 2) // pixels whose x and y are multiples of `done` are there
+        for (uint32_t y = 0; y < height; y += size)
+            for (uint32_t x = 0; x < width; x += size)
+                if ((done == 0 || x % done != 0 || y % done != 0)
+                    && !fill(x, y, width - x < size ? width - x : size, height - y < size ? height - y : size,
+                             render_pixel(scene, x, y, count)))
+                    return false;
+    return true;
 }
 
 } // namespace qray
