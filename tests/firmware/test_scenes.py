@@ -13,7 +13,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, "src/boards/common")
 sys.path.insert(0, "tests/firmware")
 import check_elf  # noqa: E402
-from test_boards import BOARDS, make, tools  # noqa: E402
+from test_boards import BOARDS, PARTS, make, tools  # noqa: E402
 
 BUDGETS = "tests/firmware/budgets.txt"
 OPTIONS = {"horizon": "SAMPLES=4", "castle": "ADAPTIVE=2", "mirrors": "DEPTH=9", "glass": "CUTOFF=0.02"}
@@ -88,15 +88,16 @@ class Scenes(unittest.TestCase):
     # The product's image: no semihosting, and the picture by the serial port.
     def test_the_serial_port_sends_the_desktops_bytes(self):
         os.makedirs("build/desktop", exist_ok=True)
-        expected = desktop("balls", "q32")
-        for board in BOARDS:
+        expected = {number: desktop("balls", number) for number in ("q32", "float")}
+        for board in BOARDS + PARTS:
+            number = "float" if board == "netduinoplus2" else "q32"
             with self.subTest(board=board):
                 status, text = make("-o", "build/qray", "run", f"BOARD={board}", "SCENE=scenes/balls.nff",
-                                    f"SIZE={size('balls')}", "NAME=serial", "OUTPUT=uart")
+                                    f"NUMBER={number}", f"SIZE={size('balls')}", "NAME=serial", "OUTPUT=uart")
                 self.assertEqual(status, 0, text)
-                with open(f"build/{board}/serial-q32.ppm", "rb") as file:
-                    self.assertEqual(file.read(), expected)
-                elf = f"build/{board}/serial-q32-uart.elf"
+                with open(f"build/{board}/serial-{number}.ppm", "rb") as file:
+                    self.assertEqual(file.read(), expected[number])
+                elf = f"build/{board}/serial-{number}-uart.elf"
                 self.assertEqual(check_elf.check(elf, tools(board), None), [])
 
 
