@@ -128,7 +128,7 @@ test: | $(filter deps,$(MAKECMDGOALS))
 	@$(MAKE) $(JOBS) -k --no-print-directory test-programs; built=$$?; \
 	    $(PYTHON) tests/run.py $(TESTS) && exit $$built
 
-PACKAGES := g++ libgtest-dev clang libclang-rt-14-dev gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm \
+PACKAGES := g++ libgtest-dev cmake clang libclang-rt-14-dev gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm \
     gcc-riscv64-unknown-elf qemu-system-misc valgrind python3 python3-matplotlib netpbm
 deps:
 	@dpkg -s $(PACKAGES) > /dev/null 2>&1 || { \

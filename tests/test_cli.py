@@ -99,7 +99,7 @@ class Options(Cli):
     def test_version(self):
         status, out, err = self.run_qray("--version")
         self.assertEqual((status, err), (0, ""))
-        self.assertRegex(out, rb"\Aqray \d+\.\d+\n\Z")
+        self.assertRegex(out, rb"\Aqray \d+\.\d+\.\d+\n\Z")
 
     def test_bad(self):
         bad = {

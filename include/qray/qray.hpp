@@ -6,4 +6,6 @@
 #include "qray needs -std=c++20" // ends the compilation, before hundreds of errors more
 #endif
 
+#define QRAY_VERSION 10000 // 1.0.0: two digits each
+
 #include "picture/render.hpp"

@@ -3,6 +3,8 @@
 #include "../scene/description.hpp"
 #include "../scene/reader.hpp"
 
+#include <qray/qray.hpp>
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,8 +14,6 @@
 namespace qray::cli {
 
 namespace {
-
-constexpr const char* version = "1.0";
 
 struct Option {
     const char* name;
@@ -190,7 +190,7 @@ int read_options(Command command, int argc, char** argv, Options& options)
             return 0;
         }
         if (strcmp(argument, "--version") == 0) {
-            printf("qray %s\n", version);
+            printf("qray %d.%d.%d\n", QRAY_VERSION / 10000, QRAY_VERSION / 100 % 100, QRAY_VERSION % 100);
             return 0;
         }
         const char* value = nullptr;

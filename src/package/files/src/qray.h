@@ -1,0 +1,2 @@
+// By this name Arduino finds the library.
+#include "qray/qray.hpp"

@@ -1,0 +1,223 @@
+"""`make package`: its header makes the same code as the headers that it is made of; its examples, and projects that use
+it, are built with nothing but what it holds, and draw the picture. From the top of the repository, after
+`make test-programs`: python3 tests/package/test_package.py"""
+
+import json
+import os
+import re
+import subprocess
+import unittest
+
+FOLDER = os.path.abspath("build/package_test")
+PACKAGE = FOLDER + "/package/qray"
+FLAGS = ["-std=c++20", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti", "-ffreestanding", "-g0"]
+COMPILERS = {
+    "microbit": ["arm-none-eabi-g++", "-mcpu=cortex-m0", "-mthumb", "-Os"],
+    "rv32": ["riscv64-unknown-elf-g++", "-march=rv32imac", "-mabi=ilp32", "-O2"],
+    "desktop": ["g++", "-O1"],
+}
+DRAW = """#include <qray/qray.hpp>
+#include "balls.hpp"
+void draw(uint8_t* frame);
+void draw(uint8_t* frame)
+{
+    qray::render_rect<qray::Dithered<qray::Mono>>(scene::scene, 0, 0, scene::width, scene::height, frame);
+}
+"""
+# What Arduino includes before a sketch, and runs it with.
+ARDUINO = """#include <stdio.h>
+#include <string.h>
+#include <stdint.h>
+struct Port {
+    void begin(long) {}
+    void print(const char* text) { fputs(text, stdout); }
+    void print(char c) { putchar(c); }
+    void print(unsigned n) { printf("%u", n); }
+    size_t write(const uint8_t* bytes, size_t size) { return fwrite(bytes, 1, size, stdout); }
+};
+static Port Serial;
+void setup();
+void loop();
+int main() { setup(); loop(); }
+"""
+# ESP-IDF and Zephyr, as far as a component meets them.
+IDF = """cmake_minimum_required(VERSION 3.13)
+project(idf CXX)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(ESP_PLATFORM 1)
+function(idf_component_register)
+    cmake_parse_arguments(IDF "" "" "SRCS;INCLUDE_DIRS;REQUIRES" ${ARGN})
+    get_filename_component(name ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+    if(IDF_SRCS)
+        add_library(${name} OBJECT ${IDF_SRCS})
+        target_link_libraries(${name} PRIVATE ${IDF_REQUIRES})
+    else()
+        add_library(${name} INTERFACE)
+        target_include_directories(${name} INTERFACE ${IDF_INCLUDE_DIRS})
+    endif()
+    set(COMPONENT_LIB ${name} PARENT_SCOPE)
+endfunction()
+add_subdirectory(PACKAGE qray)
+add_subdirectory(PACKAGE/examples/esp-idf/main main)
+"""
+ZEPHYR = """cmake_minimum_required(VERSION 3.13)
+project(zephyr CXX)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CONFIG_QRAY y)
+add_library(app OBJECT PACKAGE/examples/zephyr/src/main.cpp)
+function(zephyr_include_directories)
+    target_include_directories(app PRIVATE ${ARGN})
+endfunction()
+function(zephyr_compile_options)
+    target_compile_options(app PRIVATE ${ARGN})
+endfunction()
+add_subdirectory(PACKAGE/zephyr qray)
+qray_scene(app PACKAGE/examples/zephyr/src/balls.nff NUMBER q32 SIZE 64x48)
+"""
+CROSS = """cmake_minimum_required(VERSION 3.13)
+project(cross CXX)
+add_subdirectory(PACKAGE qray)
+add_library(picture OBJECT draw.cpp)
+target_link_libraries(picture qray::qray)
+qray_scene(picture "SCENE" NUMBER q16 SIZE 8x6 SAMPLES 4 NAME scene)
+"""
+
+
+def run(*command, **options):
+    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
+    assert result.returncode == 0, result.stdout.decode()
+    return result.stdout
+
+
+def write(name, text):
+    path = f"{FOLDER}/{name}"
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w") as file:
+        file.write(text.replace("PACKAGE", PACKAGE))
+    return path
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+class Package(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        run("python3", "src/package/package.py", FOLDER + "/package")
+        cls.header = read(PACKAGE + "/src/qray/qray.hpp")
+        number = int(re.search(rb"#define QRAY_VERSION (\d+)", cls.header)[1])
+        cls.version = f"{number // 10000}.{number // 100 % 100}.{number % 100}"
+        cls.picture = run("build/qray", "scenes/balls.nff", "-s", "64x48", "-q", "-o", "-")
+
+    def test_the_header_makes_the_same_code(self):
+        self.assertEqual(read(FOLDER + "/package/qray.hpp"), self.header)
+        self.assertEqual(set(re.findall(rb'^#include (.*)$', self.header, re.M)),
+                         {b"<stdint.h>", b"<stddef.h>", b'"qray needs -std=c++20" // ends the compilation, before '
+                          b"hundreds of errors more"})
+        run("build/qray", "compile", "scenes/balls.nff", "-s", "8x6", "-o", FOLDER + "/balls.hpp")
+        source = write("draw.cpp", DRAW)
+        for name, compiler in COMPILERS.items():
+            with self.subTest(compiler=name):
+                objects = []
+                for include in ("include", PACKAGE + "/src"):
+                    run(*compiler, *FLAGS, "-I", include, "-c", source, "-o", FOLDER + "/draw.o")
+                    objects.append(read(FOLDER + "/draw.o"))
+                self.assertEqual(*objects)
+
+    def cmake(self, source, *options):
+        build = f"{FOLDER}/build_{os.path.basename(source)}"
+        run("cmake", "-S", source, "-B", build, *options)
+        return build
+
+    def test_find_package(self):
+        build = self.cmake(PACKAGE + "/examples/cmake", f"-DCMAKE_PREFIX_PATH={PACKAGE}")
+        run("cmake", "--build", build)
+        head, *values = run(build + "/picture").split()
+        self.assertEqual((head, values[:3]), (b"P3", [b"64", b"48", b"255"]))
+        self.assertEqual(bytes(map(int, values[3:])), self.picture.removeprefix(b"P6\n64 48\n255\n"))
+
+    # Compilers for parts, by add_subdirectory(); a scene whose path has a space in it.
+    def test_add_subdirectory(self):
+        write("cross/draw.cpp", DRAW)
+        scene = write("cross/the scenes/balls.nff", read("scenes/balls.nff").decode())
+        write("cross/CMakeLists.txt", CROSS.replace("SCENE", scene))
+        build = self.cmake(FOLDER + "/cross", "-DCMAKE_SYSTEM_NAME=Generic",
+                           "-DCMAKE_TRY_COMPILE_TARGET_TYPE=STATIC_LIBRARY",
+                           "-DCMAKE_CXX_COMPILER=arm-none-eabi-g++", "-DCMAKE_CXX_FLAGS=-mcpu=cortex-m3 -mthumb -O1")
+        self.assertIn(b"balls.hpp", run("cmake", "--build", build))
+        expected = run("build/qray", "compile", "scenes/balls.nff", "-n", "q16", "-s", "8x6", "-r", "4", "-o", "-")
+        self.assertEqual(read(build + "/qray/picture/balls.hpp"), expected)
+        self.assertNotIn(b"Generating", run("cmake", "--build", build))
+        os.utime(scene)
+        self.assertIn(b"Generating", run("cmake", "--build", build))
+
+    def test_a_scene_of_an_unknown_option(self):
+        write("wrong/CMakeLists.txt", CROSS.replace("SAMPLES", "SAMPLE").replace("SCENE", "x.nff"))
+        write("wrong/draw.cpp", "")
+        with self.assertRaisesRegex(AssertionError, "unknown: SAMPLE;4"):
+            self.cmake(FOLDER + "/wrong")
+
+    # With stand-ins for what ESP-IDF and Zephyr bring, the standard among it.
+    def test_components(self):
+        for name, text in (("idf", IDF), ("zephyr", ZEPHYR)):
+            with self.subTest(name=name):
+                write(name + "/CMakeLists.txt", text)
+                build = self.cmake(FOLDER + "/" + name, "-DCMAKE_CXX_STANDARD=20")
+                command, = [entry["command"] for entry in json.loads(read(build + "/compile_commands.json"))]
+                self.assertIn(f"{PACKAGE}/", command)
+                self.assertIn("-ffp-contract=off", command)
+                run("cmake", "--build", build)
+
+    def test_arduino(self):
+        told = dict(line.split("=", 1) for line in read(PACKAGE + "/library.properties").decode().splitlines())
+        self.assertEqual(set(told), {"name", "version", "author", "maintainer", "sentence", "paragraph", "category",
+                                     "url", "architectures", "includes"})
+        self.assertEqual((told["name"], told["version"]), ("qray", self.version))
+        self.assertTrue(os.path.exists(f"{PACKAGE}/src/{told['includes']}"))
+        said = {}
+        for sketch in ("Picture", "Text"):
+            write("Arduino.h", ARDUINO)
+            run("g++", "-std=gnu++20", "-Os", "-Wall", "-Wextra", "-Werror", "-include", FOLDER + "/Arduino.h", "-I",
+                PACKAGE + "/src", "-x", "c++", f"{PACKAGE}/examples/{sketch}/{sketch}.ino", "-o", f"{FOLDER}/{sketch}")
+            said[sketch] = run(f"{FOLDER}/{sketch}")
+        self.assertEqual(said["Picture"], self.picture)
+        lines = said["Text"].decode().splitlines()
+        self.assertEqual([len(line) for line in lines], [64] * 24)
+        rgb = self.picture.removeprefix(b"P6\n64 48\n255\n")
+        for y, line in enumerate(lines):
+            for x, shown in enumerate(line):
+                r, g, b = rgb[3 * (128 * y + x):][:3]
+                level = 9 * ((299 * r + 587 * g + 114 * b + 500) // 1000) / 255
+                self.assertLess(abs(" .:-=+*#%@".index(shown) - level), 1, (x, y))
+
+    def test_platformio(self):
+        told = json.loads(read(PACKAGE + "/library.json"))
+        self.assertEqual((told["name"], told["version"]), ("qray", self.version))
+        self.assertTrue(os.path.exists(f"{PACKAGE}/{told['build']['srcDir']}/{told['headers']}"))
+        for example in told["examples"]:
+            for file in example["files"]:
+                self.assertTrue(os.path.exists(f"{PACKAGE}/{example['base']}/{file}"), file)
+
+        class Environment:
+            def __init__(self):
+                self.flags = ["-std=gnu++11"]
+
+            def Append(self, CXXFLAGS):
+                self.flags += CXXFLAGS
+        environments = {"env": Environment(), "projenv": Environment(), "Import": lambda *names: None}
+        exec(read(f"{PACKAGE}/{told['build']['extraScript']}"), environments)
+        for name in ("env", "projenv"):
+            self.assertEqual([f for f in environments[name].flags if "-std" in f][-1], "-std=gnu++20")
+
+    def test_versions(self):
+        self.assertEqual(run(PACKAGE + "/bin/qray", "--version").decode(), f"qray {self.version}\n")
+        self.assertIn(f'version: "{self.version}"\n', read(PACKAGE + "/idf_component.yml").decode())
+        for path, _, files in os.walk(PACKAGE):
+            for file in files:
+                self.assertNotIn(b"@VERSION@", read(os.path.join(path, file)), file)
+
+
+if __name__ == "__main__":
+    unittest.main()
