@@ -7,6 +7,8 @@
 # Without SCENE, the board draws its test card.
 FW_SRC    := src/boards
 FW_BOARDS := $(patsubst $(FW_SRC)/%/board.mk,%,$(wildcard $(FW_SRC)/*/board.mk))
+FW_OPTIONS = $(if $(NUMBER),-n $(NUMBER)) $(if $(SIZE),-s $(SIZE)) $(if $(SAMPLES),-r $(SAMPLES)) \
+    $(if $(ADAPTIVE),-a $(ADAPTIVE)) $(if $(DEPTH),-d $(DEPTH)) $(if $(CUTOFF),--cutoff $(CUTOFF))
 # Shells may have variables of these names: Zephyr's a BOARD, WSL's a NAME.
 ifeq ($(origin NAME),environment)
 undefine NAME
@@ -59,8 +61,6 @@ FW_OBJ  := $(FW_ELF:.elf=.obj)
 FW_MAIN ?= src/firmware/main.cpp
 FW_INCLUDE ?= include
 
-FW_OPTIONS  := -n $(NUMBER) $(if $(SIZE),-s $(SIZE)) $(if $(SAMPLES),-r $(SAMPLES)) \
-    $(if $(ADAPTIVE),-a $(ADAPTIVE)) $(if $(DEPTH),-d $(DEPTH)) $(if $(CUTOFF),--cutoff $(CUTOFF))
 FW_DEFINES  := $(if $(SCENE),-DQRAY_SCENE_HEADER='"$(notdir $(FW_STEM)).hpp"',\
     $(if $(SIZE),-DQRAY_WIDTH=$(word 1,$(FW_SIZE)) -DQRAY_HEIGHT=$(word 2,$(FW_SIZE))))
 FW_FLAGS    := -std=c++20 $(BOARD_CPU) $(BOARD_OPTIMISE) -g $(WARNINGS) \

@@ -48,6 +48,7 @@ def main(folder):
                 write(out + path.removeprefix(FILES), file.read().replace("@VERSION@", version(header)))
     write(out + "/src/qray/qray.hpp", header)
     write(folder + "/qray.hpp", header)
+    shutil.copytree("src/package/c", out + "/c")
     os.makedirs(out + "/bin")
     shutil.copy("build/qray", out + "/bin")
     shutil.copy("src/package/README.md", out)

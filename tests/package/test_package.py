@@ -16,12 +16,48 @@ COMPILERS = {
     "rv32": ["riscv64-unknown-elf-g++", "-march=rv32imac", "-mabi=ilp32", "-O2"],
     "desktop": ["g++", "-O1"],
 }
+FACE = {"qray_width", "qray_height", "qray_row_bytes", "qray_pixel", "qray_rows", "qray_rect"}
 DRAW = """#include <qray/qray.hpp>
 #include "balls.hpp"
 void draw(uint8_t* frame);
 void draw(uint8_t* frame)
 {
     qray::render_rect<qray::Dithered<qray::Mono>>(scene::scene, 0, 0, scene::width, scene::height, frame);
+}
+"""
+# In C, and in C++ before there was C++20: the picture as rows, as pixels, and in halves.
+C = r"""#include <qray_c.h>
+#include <stdio.h>
+#include <string.h>
+
+static uint8_t rows[64 * 48 * 2], parts[2][32 * 48 * 2];
+
+int main(void)
+{
+    uint32_t x, y;
+    uint8_t rgb[3] = {7, 7, 7};
+    if (qray_width() != 64 || qray_height() != 48 || qray_row_bytes(64) != 128)
+        return 1;
+    if (qray_rows(0, 10, rows) != 10 || qray_rows(10, 1000, rows + 10 * 128) != 38 || qray_rows(48, 1, rows) != 0
+        || qray_rows(0xffffffffu, 2, rows) != 0)
+        return 2;
+    if (!qray_rect(0, 0, 32, 48, parts[0]) || !qray_rect(32, 0, 32, 48, parts[1]) || qray_rect(33, 0, 32, 1, parts[0])
+        || qray_rect(0, 1, 1, 48, parts[0]) || qray_rect(1, 0, 0xffffffffu, 1, parts[0]))
+        return 3;
+    for (y = 0; y < 48; y++)
+        for (x = 0; x < 2; x++)
+            if (memcmp(rows + y * 128 + x * 64, parts[x] + y * 64, 64) != 0)
+                return 4;
+    if (qray_pixel(64, 0, rgb) || qray_pixel(0, 48, rgb) || rgb[0] != 7)
+        return 5;
+    fputs("P6\n64 48\n255\n", stdout);
+    for (y = 0; y < 48; y++)
+        for (x = 0; x < 64; x++) {
+            if (!qray_pixel(x, y, rgb) || rows[y * 128 + x * 2] >> 3 != (rgb[0] * 31 + 127) / 255)
+                return 6;
+            fwrite(rgb, 1, 3, stdout);
+        }
+    return 0;
 }
 """
 # What Arduino includes before a sketch, and runs it with.
@@ -77,6 +113,7 @@ qray_scene(app PACKAGE/examples/zephyr/src/balls.nff NUMBER q32 SIZE 64x48)
 CROSS = """cmake_minimum_required(VERSION 3.13)
 project(cross CXX)
 add_subdirectory(PACKAGE qray)
+qray_object(face "SCENE" SIZE 8x6 FORMAT "Dithered<Mono>")
 add_library(picture OBJECT draw.cpp)
 target_link_libraries(picture qray::qray)
 qray_scene(picture "SCENE" NUMBER q16 SIZE 8x6 SAMPLES 4 NAME scene)
@@ -147,11 +184,32 @@ class Package(unittest.TestCase):
                            "-DCMAKE_TRY_COMPILE_TARGET_TYPE=STATIC_LIBRARY",
                            "-DCMAKE_CXX_COMPILER=arm-none-eabi-g++", "-DCMAKE_CXX_FLAGS=-mcpu=cortex-m3 -mthumb -O1")
         self.assertIn(b"balls.hpp", run("cmake", "--build", build))
+        symbols = run("arm-none-eabi-nm", f"{build}/CMakeFiles/face.dir{PACKAGE}/c/qray_c.cpp.obj").decode()
+        self.assertEqual(set(re.findall(r" T (\w+)", symbols)), FACE)
         expected = run("build/qray", "compile", "scenes/balls.nff", "-n", "q16", "-s", "8x6", "-r", "4", "-o", "-")
         self.assertEqual(read(build + "/qray/picture/balls.hpp"), expected)
         self.assertNotIn(b"Generating", run("cmake", "--build", build))
         os.utime(scene)
         self.assertIn(b"Generating", run("cmake", "--build", build))
+
+    def test_c(self):
+        environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+        arguments = ["make", "-o", "build/qray", "object", "SCENE=scenes/balls.nff", "SIZE=64x48", "FORMAT=Rgb565Big"]
+        run(*arguments, env=environment)
+        write("face.c", C)
+        for compiler in (["gcc", "-std=c99"], ["g++", "-std=c++11", "-x", "c++"]):
+            run(*compiler, "-pedantic", "-Wall", "-Wextra", "-Werror", "-Ibuild/object/balls", FOLDER + "/face.c", "-x",
+                "none", "build/object/balls/qray.o", "-o", FOLDER + "/face")
+            self.assertEqual(run(FOLDER + "/face"), self.picture)
+        example, = re.findall(r"^```c\n(.*?)^```$", read("src/package/README.md").decode(), re.M | re.S)
+        run("gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-Ibuild/object/balls", "-fsyntax-only", "-x", "c", "-",
+            input=b"#include <stdint.h>\nvoid show(uint32_t, const uint8_t*, uint32_t);\n" + example.encode())
+        run(*arguments, "BOARD=microbit", "NAME=face_m0", env=environment)
+        symbols = run("arm-none-eabi-nm", "build/object/face_m0/qray.o").decode()
+        self.assertEqual(set(re.findall(r" T (\w+)", symbols)), FACE)
+        self.assertEqual([name for name in re.findall(r" U (\w+)", symbols)
+                          if not re.match("mem(cpy|set)$|__(aeabi|gnu)_", name)], [])
+        self.assertEqual(re.findall(r" [bBdD] \w+", symbols), [], "it has no state")
 
     def test_a_scene_of_an_unknown_option(self):
         write("wrong/CMakeLists.txt", CROSS.replace("SAMPLES", "SAMPLE").replace("SCENE", "x.nff"))
