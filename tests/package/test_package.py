@@ -93,8 +93,9 @@ function(idf_component_register)
     endif()
     set(COMPONENT_LIB ${name} PARENT_SCOPE)
 endfunction()
-add_subdirectory(PACKAGE qray)
+include(PACKAGE/project_include.cmake)
 add_subdirectory(PACKAGE/examples/esp-idf/main main)
+add_subdirectory(PACKAGE qray)
 """
 ZEPHYR = """cmake_minimum_required(VERSION 3.13)
 project(zephyr CXX)
@@ -210,6 +211,7 @@ class Package(unittest.TestCase):
         self.assertEqual([name for name in re.findall(r" U (\w+)", symbols)
                           if not re.match("mem(cpy|set)$|__(aeabi|gnu)_", name)], [])
         self.assertEqual(re.findall(r" [bBdD] \w+", symbols), [], "it has no state")
+        self.assertNotIn("srgb", symbols)
 
     def test_a_scene_of_an_unknown_option(self):
         write("wrong/CMakeLists.txt", CROSS.replace("SAMPLES", "SAMPLE").replace("SCENE", "x.nff"))

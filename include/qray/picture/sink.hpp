@@ -41,25 +41,19 @@ constexpr uint16_t rgb565(const Pixel& p, uint32_t threshold = to_nearest)
                                  | quantised(p.b, 31, threshold));
 }
 
-struct Rgb565Little {
+// Its upper byte first, as displays take it by SPI, or its lower, as a frame buffer holds it.
+template <bool UpperFirst>
+struct Rgb565 {
     static constexpr uint32_t pixels = 1, bytes = 2;
     static constexpr void put(const Pixel& p, uint32_t, uint32_t, uint8_t* out, uint32_t threshold = to_nearest)
     {
         const uint16_t v = rgb565(p, threshold);
-        out[0] = static_cast<uint8_t>(v & 0xff);
-        out[1] = static_cast<uint8_t>(v >> 8);
+        out[UpperFirst ? 0 : 1] = static_cast<uint8_t>(v >> 8);
+        out[UpperFirst ? 1 : 0] = static_cast<uint8_t>(v & 0xff);
     }
 };
-
-struct Rgb565Big {
-    static constexpr uint32_t pixels = 1, bytes = 2;
-    static constexpr void put(const Pixel& p, uint32_t, uint32_t, uint8_t* out, uint32_t threshold = to_nearest)
-    {
-        const uint16_t v = rgb565(p, threshold);
-        out[0] = static_cast<uint8_t>(v >> 8);
-        out[1] = static_cast<uint8_t>(v & 0xff);
-    }
-};
+using Rgb565Big = Rgb565<true>;
+using Rgb565Little = Rgb565<false>;
 
 struct Grey8 {
     static constexpr uint32_t pixels = 1, bytes = 1;
