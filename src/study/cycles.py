@@ -28,7 +28,8 @@ M3 = {"other": 1, "multiply": 1, "long multiply": 4, "divide": 7, "load": 2, "st
 M4F = {**M3, "long multiply": 1, "float": 1, "float divide or root": 14}
 RV32 = {"other": 1, "multiply": 1, "long multiply": 2, "divide": 37, "load": 2, "store": 2,
         "branch, not taken": 1, "branch, taken": 3, "jump": 2, "call": 2, "return": 2}
-TIMINGS = {"microbit": M0, "mps2_an385": M3, "mps2_an386": M4F, "rv32_virt": RV32}
+TIMINGS = {"microbit": M0, "mps2_an385": M3, "mps2_an386": M4F, "rv32_virt": RV32,
+           "stm32vldiscovery": M3, "lm3s6965evb": M3, "netduinoplus2": M4F}
 
 SHAPES = {name: name + ("es" if name[-1] in "hsx" else "s") for name in told()["shapes"]}
 # The step that an instruction belongs to is that of the innermost of these files that it was inlined into.
