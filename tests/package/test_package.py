@@ -181,14 +181,15 @@ class Package(unittest.TestCase):
         write("cross/draw.cpp", DRAW)
         scene = write("cross/the scenes/balls.nff", read("scenes/balls.nff").decode())
         write("cross/CMakeLists.txt", CROSS.replace("SCENE", scene))
-        build = self.cmake(FOLDER + "/cross", "-DCMAKE_SYSTEM_NAME=Generic",
-                           "-DCMAKE_TRY_COMPILE_TARGET_TYPE=STATIC_LIBRARY",
-                           "-DCMAKE_CXX_COMPILER=arm-none-eabi-g++", "-DCMAKE_CXX_FLAGS=-mcpu=cortex-m3 -mthumb -O1")
-        self.assertIn(b"balls.hpp", run("cmake", "--build", build))
-        symbols = run("arm-none-eabi-nm", f"{build}/CMakeFiles/face.dir{PACKAGE}/c/qray_c.cpp.obj").decode()
-        self.assertEqual(set(re.findall(r" T (\w+)", symbols)), FACE)
         expected = run("build/qray", "compile", "scenes/balls.nff", "-n", "q16", "-s", "8x6", "-r", "4", "-o", "-")
-        self.assertEqual(read(build + "/qray/picture/balls.hpp"), expected)
+        for compiler, *flags in (COMPILERS["rv32"], COMPILERS["microbit"]):
+            build = self.cmake(FOLDER + "/cross", "--fresh", "-DCMAKE_SYSTEM_NAME=Generic",
+                               "-DCMAKE_TRY_COMPILE_TARGET_TYPE=STATIC_LIBRARY", f"-DCMAKE_CXX_COMPILER={compiler}",
+                               "-DCMAKE_CXX_FLAGS=" + " ".join([*flags, "-ffreestanding"]))
+            self.assertIn(b"balls.hpp", run("cmake", "--build", build, "--clean-first"))
+            symbols = run("nm", f"{build}/CMakeFiles/face.dir{PACKAGE}/c/qray_c.cpp.obj").decode()
+            self.assertEqual(set(re.findall(r" T (\w+)", symbols)), FACE)
+            self.assertEqual(read(build + "/qray/picture/balls.hpp"), expected)
         self.assertNotIn(b"Generating", run("cmake", "--build", build))
         os.utime(scene)
         self.assertIn(b"Generating", run("cmake", "--build", build))

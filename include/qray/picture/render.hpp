@@ -72,7 +72,7 @@ constexpr bool render_progressively(const Scene<N, E>& scene, uint32_t size, Fil
     for (uint32_t done = 0; size != 0; done = size, size /= 2) // pixels whose x and y are multiples of `done` are there
         for (uint32_t y = 0; y < height; y += size)
             for (uint32_t x = 0; x < width; x += size)
-                if ((done == 0 || x % done != 0 || y % done != 0)
+                if ((done == 0 || ((x | y) & (done - 1)) != 0)
                     && !fill(x, y, width - x < size ? width - x : size, height - y < size ? height - y : size,
                              render_pixel(scene, x, y, count)))
                     return false;
