@@ -47,7 +47,7 @@ QRAY_INLINE constexpr const TreeEntry<N>* leaf_along(const ProjectedRay& ray, co
             to = to > high ? high : to;
             passes = from <= to;
             x = (from + to) >> 1;
-            half = (to - from + 1) >> 1;
+            half = to - x;
         }
         if (passes && y.passes(x, half, e->*Y, e->*HalfY) && z.passes(x, half, e->*Z, e->*HalfZ)) {
             if (e->is_leaf())

@@ -140,8 +140,8 @@ QRAY_INLINE constexpr bool crosses(const Sheared<N>& a, const Sheared<N>& b, [[m
 // The distance to the plane of a surface that the ray is known to pass through. Where the plane is seen almost
 // edge on its equation says little; the corners' own distances then bound it.
 template <class N, class Corner>
-constexpr bool plane_distance(const Direction<N>& normal, uint32_t count, Corner corner, const Ray<N>& ray,
-                              typename N::Cosine den, typename N::Length limit, typename N::Length& t)
+QRAY_NOINLINE constexpr bool plane_distance(const Direction<N>& normal, uint32_t count, const Corner& corner,
+                                            const Ray<N>& ray, typename N::Length limit, typename N::Length& t)
 {
     typename N::Length near = N::length_max, far = -N::length_max;
     for (uint32_t i = 0; i < count; i++) {
@@ -151,7 +151,7 @@ constexpr bool plane_distance(const Direction<N>& normal, uint32_t count, Corner
         if (depth > far)
             far = depth;
     }
-    if (!N::quotient(dot<N>(corner(0), normal), den, 0, t) || t < near)
+    if (!N::quotient(dot<N>(corner(0), normal), dot<N>(ray.direction, normal), 0, t) || t < near)
         t = near;
     if (t > far)
         t = far;
@@ -160,7 +160,7 @@ constexpr bool plane_distance(const Direction<N>& normal, uint32_t count, Corner
 
 // Does the ray's line pass inside of the outline? Corners are given relative to the ray's origin by corner(i).
 template <class N, class Corner>
-QRAY_INLINE constexpr bool encloses(uint32_t count, const Corner& corner, const Direction<N>& d)
+QRAY_NOINLINE constexpr bool encloses(uint32_t count, const Corner& corner, const Direction<N>& d)
 {
     const Shear<N> shear(d);
     bool inside = false;
@@ -188,45 +188,61 @@ QRAY_INLINE constexpr bool surely_beside(uint32_t count, Point_of point, const P
         && (count == 3 || ray.misses<N>(point(0), point(2), point(3)));
 }
 
-// Enclosed: the ray is known to pass inside.
-template <bool Enclosed, class N, class Corner>
-constexpr bool intersect_corners(const Direction<N>& normal, uint32_t count, Corner corner, const Ray<N>& ray,
-                                 typename N::Length limit, typename N::Length& t)
+// Where the ray meets the plane through c; 0 where that is seen almost edge on, and says too little. False where it is
+// not met in (0, limit].
+template <class N>
+QRAY_NOINLINE constexpr bool meets_plane(const Direction<N>& normal, const Point<N>& c, const Ray<N>& ray,
+                                         typename N::Length limit, typename N::Length& t)
 {
     const auto den = dot<N>(ray.direction, normal);
-    const bool edge_on = N::nearly_zero(den);
-    if (!edge_on && !intersect_plane<N>(dot<N>(corner(0), normal), den, limit, t))
+    t = N::length_zero;
+    return N::nearly_zero(den) || intersect_plane<N>(dot<N>(c - ray.origin, normal), den, limit, t);
+}
+
+// Enclosed: the ray is known to pass inside. The steps are functions, so that they take the same stack in turn.
+template <bool Enclosed, class N, class Corner>
+QRAY_INLINE constexpr bool intersect_corners(const Direction<N>& normal, uint32_t count, const Point<N>& first,
+                                             const Corner& corner, const Ray<N>& ray, typename N::Length limit,
+                                             typename N::Length& t)
+{
+    if (!meets_plane<N>(normal, first, ray, limit, t))
         return false;
     if constexpr (!Enclosed)
         if (!encloses<N>(count, corner, ray.direction))
             return false;
     // A rounded normal may put the plane beside the corners.
     if constexpr (!NarrowFixed<N>)
-        if (!edge_on)
+        if (t > N::length_zero)
             return true;
-    return plane_distance<N>(normal, count, corner, ray, den, limit, t);
+    return plane_distance<N>(normal, count, corner, ray, limit, t);
 }
 
-// The barycentric blend of a triangle's corner normals where the ray meets it: unit, not yet turned; g where it vanishes.
+// The barycentric weights of where the ray passes a triangle with these corners, or false. By itself, so that its stack
+// is free again where the blend is made unit.
+template <class N>
+QRAY_NOINLINE constexpr bool corner_weights(const Point<N>& a, const Point<N>& b, const Point<N>& c, const Ray<N>& ray,
+                                            typename N::Unit (&w)[3])
+{
+    const Shear<N> shear(ray.direction);
+    const Sheared<N> at = shear(a - ray.origin), bt = shear(b - ray.origin), ct = shear(c - ray.origin);
+    return N::weights(edge<N>(bt, ct), edge<N>(ct, at), edge<N>(at, bt), w[0], w[1], w[2]);
+}
+
+// The blend of a triangle's corner normals where the ray meets it: unit, not yet turned; g where it vanishes.
 template <class N, class S>
 QRAY_INLINE constexpr Direction<N> blended_normal(const S& s, const Corners<N>& corners, const Ray<N>& ray,
                                                   const Direction<N>& g)
 {
     const auto& [vertices, normals] = corners;
-    const Shear<N> shear(ray.direction);
-    const Sheared<N> a = shear(vertices[s.corner(0)] - ray.origin);
-    const Sheared<N> b = shear(vertices[s.corner(1)] - ray.origin);
-    const Sheared<N> c = shear(vertices[s.corner(2)] - ray.origin);
-    const auto u = edge<N>(b, c), v = edge<N>(c, a), w = edge<N>(a, b);
-    typename N::Unit wa{}, wb{}, wc{};
+    typename N::Unit w[3]{};
     Direction<N> n = g;
-    if (N::weights(u, v, w, wa, wb, wc)) {
+    if (corner_weights<N>(vertices[s.corner(0)], vertices[s.corner(1)], vertices[s.corner(2)], ray, w)) {
         const Direction<N>& na = normals[s.corner(0)];
         const Direction<N>& nb = normals[s.corner(1)];
         const Direction<N>& nc = normals[s.corner(2)];
         using Blend = Vec<typename N::Cosine>;
-        normalise_short<N>(Blend{wa * na.x + wb * nb.x + wc * nc.x, wa * na.y + wb * nb.y + wc * nc.y,
-                                 wa * na.z + wb * nb.z + wc * nc.z},
+        normalise_short<N>(Blend{w[0] * na.x + w[1] * nb.x + w[2] * nc.x, w[0] * na.y + w[1] * nb.y + w[2] * nc.y,
+                                 w[0] * na.z + w[1] * nb.z + w[2] * nc.z},
                            n);
     }
     return n;

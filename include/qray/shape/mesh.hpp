@@ -119,7 +119,7 @@ QRAY_NOINLINE constexpr bool meets(const CornerFrom<N>& corner, const LeanNormal
     const bool edge_on = N::nearly_zero(den);
     if (!edge_on && !intersect_plane<N>(dot<N>(corner(0), normal), den, limit, t))
         return false;
-    if ((edge_on || NarrowFixed<N>) && !plane_distance<N>(normal, 3, corner, ray, den, limit, t))
+    if ((edge_on || NarrowFixed<N>) && !plane_distance<N>(normal, 3, corner, ray, limit, t))
         return false;
     return !to_light || before_light<N>(normal, ray, t, limit);
 }

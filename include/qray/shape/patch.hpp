@@ -28,7 +28,7 @@ QRAY_INLINE constexpr bool surely_missed(const Patch<N>& s, const RejectRay<N>& 
 template <class N>
 QRAY_INLINE constexpr bool surely_missed(const Patch<N>& s, const Corners<N>& corners, const ProjectedRay& ray)
 {
-    return surely_beside<N>(3, [&](uint32_t i) { return corners.points[s.corner(i)]; }, ray);
+    return surely_beside<N>(3, [&](uint32_t i) -> const Point<N>& { return corners.points[s.corner(i)]; }, ray);
 }
 
 template <class N>
@@ -40,15 +40,15 @@ constexpr bool encloses(const Patch<N>& s, const Corners<N>& corners, const Ray<
 
 // t in (0, limit], or false. The triangle that the ray starts on does not count.
 template <bool Enclosed, class N>
-constexpr bool meets(const Patch<N>& s, const Point<N>* corners, const Ray<N>& ray, typename N::Length limit,
-                     typename N::Length& t)
+QRAY_NOINLINE constexpr bool meets(const Patch<N>& s, const Point<N>* corners, const Ray<N>& ray,
+                                   typename N::Length limit, typename N::Length& t)
 {
     if (ray.from == s.tag)
         return false;
     const auto corner = [&s, corners, &ray](uint32_t i) {
         return corners[i == 0 ? s.first : s.second + i - 1] - ray.origin;
     };
-    return intersect_corners<Enclosed, N>(s.normal, 3, corner, ray, limit, t);
+    return intersect_corners<Enclosed, N>(s.normal, 3, corners[s.first], corner, ray, limit, t);
 }
 
 template <bool Near = false, class N, class C>
@@ -81,8 +81,8 @@ QRAY_INLINE constexpr Direction<N> normal_of(const Patch<N>& s, const Corners<N>
 }
 
 template <class N>
-constexpr Direction<N> shading_normal(const Patch<N>& s, const Corners<N>& corners, const Ray<N>& ray,
-                                      const Direction<N>& g)
+QRAY_NOINLINE constexpr Direction<N> shading_normal(const Patch<N>& s, const Corners<N>& corners, const Ray<N>& ray,
+                                                    const Direction<N>& g)
 {
     return blended_normal(s, corners, ray, g);
 }

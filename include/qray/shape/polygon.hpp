@@ -26,7 +26,7 @@ QRAY_INLINE constexpr bool surely_missed(const Polygon<N>& s, const RejectRay<N>
 template <class N>
 QRAY_INLINE constexpr bool surely_missed(const Polygon<N>& s, const Corners<N>& corners, const ProjectedRay& ray)
 {
-    return surely_beside<N>(s.count, [&](uint32_t i) { return corners.points[s.first + i]; }, ray);
+    return surely_beside<N>(s.count, [&](uint32_t i) -> const Point<N>& { return corners.points[s.first + i]; }, ray);
 }
 
 template <class N>
@@ -38,14 +38,14 @@ constexpr bool encloses(const Polygon<N>& s, const Corners<N>& corners, const Ra
 
 // t in (0, limit], or false. The polygon that the ray starts on does not count.
 template <bool Enclosed, class N>
-constexpr bool meets(const Polygon<N>& s, const Point<N>* corners, const Ray<N>& ray, typename N::Length limit,
-                     typename N::Length& t)
+QRAY_NOINLINE constexpr bool meets(const Polygon<N>& s, const Point<N>* corners, const Ray<N>& ray,
+                                   typename N::Length limit, typename N::Length& t)
 {
     if (ray.from == s.tag)
         return false;
     const Point<N>* first = corners + s.first;
     const auto corner = [first, &ray](uint32_t i) { return first[i] - ray.origin; };
-    return intersect_corners<Enclosed, N>(s.normal, s.count, corner, ray, limit, t);
+    return intersect_corners<Enclosed, N>(s.normal, s.count, *first, corner, ray, limit, t);
 }
 
 template <bool Near = false, class N, class C>
