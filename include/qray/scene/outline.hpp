@@ -36,6 +36,7 @@ struct OutlineBlock {
 template <class N>
 class OutlineRay {
 public:
+    OutlineRay() = default; // of none yet
     explicit QRAY_INLINE OutlineRay(const Ray<N>& ray)
     {
         const Shear<N> shear(ray.direction);

@@ -26,7 +26,7 @@ struct ShapeId {
 };
 constexpr ShapeId shape_id(Kind kind, uint32_t index) { return {static_cast<uint32_t>(kind) << 29 | index}; }
 
-struct BoxNode {
+struct alignas(2 * sizeof(Bounds)) BoxNode { // whole lines of a cache
     Bounds sides[3][2];          // of boxes along each axis: low and high; none: +infinity and -infinity
     uint32_t links[bound_lanes]; // a node's number, or leaf_link()
 };
@@ -188,17 +188,21 @@ struct Outlines {
 };
 template <class N>
 struct Outlines<N, true> {
-    OutlineRay<N> ray;
+    const Ray<N>& of;
+    OutlineRay<N> ray; // made for the first outline: many rays ask none
     uint32_t held = ~0u, crossed = 0, unsure = 0; // block number `held`
 
-    explicit QRAY_INLINE Outlines(const Ray<N>& r) : ray(r) {}
+    explicit QRAY_INLINE Outlines(const Ray<N>& r) : of(r) {}
     QRAY_INLINE bool surely_missed(const Tree<N>& tree, const TreeShape& shape, bool& open)
     {
         if (shape.blocks == 0)
             return false;
-        if (shape.blocks == 1 && shape.block != held) {
+        if (shape.block != held) {
+            if (held == ~0u)
+                ray = OutlineRay<N>(of);
             held = shape.block;
-            crossed = ray.crossed(tree.outlines[held], unsure);
+            if (shape.blocks == 1)
+                crossed = ray.crossed(tree.outlines[held], unsure);
         }
         uint32_t edges = crossed & shape.edges, doubt = unsure & shape.edges;
         if (shape.blocks > 1)
@@ -263,34 +267,34 @@ QRAY_INLINE void walk(const Tree<N>& tree, const Ray<N>& ray, Limit limit, Visit
                 link = nothing;
                 break;
             }
-            uint32_t from[bound_lanes];
-            __builtin_memcpy(from, &entered, sizeof from);
-            const auto entry = [&](uint32_t i) __attribute__((always_inline)) {
-                return uint64_t{from[i]} << 32 | node.links[i]; // from >= 0: in the order of integers
-            };
             uint32_t i = lowest_bit(mask);
             mask &= mask - 1;
             link = node.links[i];
             if (mask == 0)
                 continue;
+            const union {
+                Bounds entered;
+                uint32_t bits[bound_lanes]; // of numbers >= 0: in their order
+            } from{entered};
+            uint64_t nearest = uint64_t{from.bits[i]} << 32 | link;
             uint64_t* const base = top;
-            if constexpr (NearestFirst)
-                *top++ = entry(i);
             do {
                 i = lowest_bit(mask);
                 mask &= mask - 1;
                 uint64_t* at = top++;
                 if constexpr (NearestFirst) {
-                    const uint64_t e = entry(i);
-                    for (; at != base && at[-1] < e; at--)
+                    const uint64_t e = uint64_t{from.bits[i]} << 32 | node.links[i];
+                    const uint64_t farther = e > nearest ? e : nearest;
+                    nearest = e > nearest ? nearest : e;
+                    for (; at != base && at[-1] < farther; at--)
                         *at = at[-1];
-                    *at = e;
+                    *at = farther;
                 } else {
                     *at = node.links[i];
                 }
             } while (mask != 0);
             if constexpr (NearestFirst)
-                link = static_cast<uint32_t>(*--top);
+                link = static_cast<uint32_t>(nearest);
         }
         if (link != nothing) {
             for (uint32_t i = link & 0x0fffffff, count = (link >> 28 & 7) + 1; count != 0; i++, count--)
