@@ -428,6 +428,31 @@ TYPED_TEST(NumberTest, FractionalPowersAtTheEnds)
     EXPECT_NEAR(value(N::power(M::unit(0.25), M::shine(1.5))), 0.125, power_tolerance<N>(0.25, 1.5));
 }
 
+// The last roots are found by counting down to 1, where roots are slow.
+TEST(FloatTest, FractionalPowersAreProductsOfRoundedRoots)
+{
+    const auto expect = [](float x, float f) {
+        float root = x, product = 1, rest = f;
+        for (int bit = 0; bit < 24; bit++) {
+            root = std::sqrt(root);
+            rest *= 2;
+            if (rest >= 1) {
+                product *= root;
+                rest -= 1;
+            }
+        }
+        ASSERT_EQ(Float::power(x, {0, f}), product) << x << "^" << f;
+    };
+    constexpr uint32_t one = 0x3f800000;
+    for (float f : {0.5f, 0.81884f, 1 - 0x1p-24f, 0x1p-24f, 0x1p-30f}) {
+        for (uint32_t bits = 1; bits <= one; bits += 65521)
+            expect(__builtin_bit_cast(float, bits), f);
+        for (uint32_t power = 0; power < one; power += 1 << 23)
+            for (uint32_t bits : {power + 1, power + (1 << 23) - 1, power + (1 << 23)})
+                expect(__builtin_bit_cast(float, bits), f);
+    }
+}
+
 TYPED_TEST(NumberTest, SaturatingOperationsAreSumsWithinRange)
 {
     using N = TypeParam;

@@ -163,39 +163,46 @@ struct FloatSystem {
     }
     static constexpr F power(F x, Shine e)
     {
-        if (x == 0 && e.whole != 0) // half of all highlights
-            return 0;
+        if (x == 0) // half of all highlights
+            return e.whole == 0 && !(e.fraction > 0) ? F(1) : F(0);
         return e.fraction > 0 ? power_whole(x, e) * power_fraction(x, e.fraction) : power_whole(x, e);
     }
 
-    // sqrt(x) for x in [1 - 2^-12, 1], where roots are slow and space is not. Of 1 - m u with u = 2^-24 it is
+    // x^f for x in (0, 1], f in (0, 1): square roots of x, one for each bit of f that matters. Where roots are slow and
+    // space is not, the last ones are found in steps of u = 2^-24 below 1: the root of 1 - m u, with m < 2^12, is
     // 1 - (m/2 + m^2 u/8 + ...) u, and all after m/2 is above 0 and less than 1/7: the next m is m/2, halves up.
-    QRAY_INLINE static constexpr float root_near_one(float x)
-        requires(sizeof(F) == 4)
-    {
-        constexpr uint32_t of_one = __builtin_bit_cast(uint32_t, 1.0f);
-        return __builtin_bit_cast(float, of_one - (of_one - __builtin_bit_cast(uint32_t, x) + 1) / 2);
-    }
-    // x^f for x in [0, 1], f in (0, 1): square roots of x, one for each bit of f that matters.
     static constexpr F power_fraction(F x, F f)
     {
+        using Bits = decltype(bits_of(F{}));
+        constexpr int bits = sizeof(F) == 4 ? 24 : 53, top = sizeof(F) * 8 - 1;
+        Bits left = static_cast<Bits>(f * static_cast<F>(Bits{1} << bits)) << (top + 1 - bits);
         F r = 1;
-        // 12 roots of what is e^-1 or more are above 1 - 2^-12. Not asked of each root: what is known late is guessed wrong.
-        constexpr bool shifts_roots = sizeof(F) == 4 && sizeof(void*) == 8;
-        [[maybe_unused]] const int near_one = x >= F(0.375) ? 12 : 24;
-        for (int bit = 0; bit < (sizeof(F) == 4 ? 24 : 53) && f > 0; bit++) {
-            if constexpr (shifts_roots)
-                x = bit >= near_one ? root_near_one(x) : sqrt(x);
-            else
-                x = sqrt(x);
-            f = f + f;
-            if (f >= 1) {
+        int roots = bits;
+        if constexpr (counts_steps) {
+            // 12 + k roots of 2^-(2^k) or more are above 1 - 2^-12; so are 19 of any.
+            const uint32_t below_half = 126 - (__builtin_bit_cast(uint32_t, x) >> 23);
+            roots = 44 - count_leading_zeros(below_half);
+        }
+        for (; left != 0 && roots != 0; left <<= 1, roots--) {
+            x = sqrt(x);
+            if (left >> top != 0)
                 r *= x;
-                f -= 1;
+        }
+        if constexpr (counts_steps) {
+            constexpr uint32_t of_one = __builtin_bit_cast(uint32_t, 1.0f);
+            for (uint32_t m = of_one - __builtin_bit_cast(uint32_t, x); left != 0; left <<= 1) {
+                m = (m + 1) / 2;
+                if (left >> top != 0)
+                    r *= __builtin_bit_cast(float, of_one - m);
             }
         }
         return r;
     }
+
+private:
+    static constexpr bool counts_steps = sizeof(F) == 4 && sizeof(void*) == 8;
+    static uint32_t bits_of(float);
+    static uint64_t bits_of(double);
 };
 
 using Float = FloatSystem<float>;
