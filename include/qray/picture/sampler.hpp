@@ -111,7 +111,8 @@ template <class N, Effects E, class Count, class... Place>
 QRAY_INLINE Pixel pixel_at(const Scene<N, E>& scene, const Pencil<N>& at, Count& count, Place... place)
 {
     uint8_t rgb[3]{};
-    clamped_bytes<N>(trace(scene, eye_ray(scene, at), count, place...), scene.exposure, rgb);
+    Ray<N> ray = eye_ray(scene, at); // a copy would wait for what was just written in parts
+    clamped_bytes<N>(trace<N, E, Ray<N>&>(scene, ray, count, place...), scene.exposure, rgb);
     return {rgb[0], rgb[1], rgb[2]};
 }
 

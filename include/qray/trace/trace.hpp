@@ -329,8 +329,9 @@ QRAY_INLINE constexpr void accumulate(Rgb<N>& sum, const Rgb<N>& light, typename
 
 // The light that comes back along an eye ray, not yet clamped to [0, 1], divided by 2^exposure.
 // `sample` is the eye's, where there are panels.
-template <class N, Effects E, class Count, class... Sample>
-constexpr Rgb<N> trace(const Scene<N, E>& scene, Ray<N> ray, Count& count, Sample... sample)
+// EyeRay: Ray<N>, or a reference to one that may be lost.
+template <class N, Effects E, class EyeRay, class Count, class... Sample>
+constexpr Rgb<N> trace(const Scene<N, E>& scene, EyeRay ray, Count& count, Sample... sample)
 {
     Rgb<N> sum{N::black, N::black, N::black};
     [[maybe_unused]] Maybe<Stack<N, E>, E.transmit> stack;
