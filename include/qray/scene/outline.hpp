@@ -28,7 +28,7 @@ struct OutlineRow<true> {
 // x, y, z of where edges begin, then of where they end; or, behind the blocks of an outline that has several, the lowest
 // and the highest of each of these blocks.
 template <class N>
-struct OutlineBlock {
+struct alignas(2 * sizeof(Bounds)) OutlineBlock {
     using Row = typename OutlineRow<N::is_fixed>::Type;
     Row ends[2][3];
 };
