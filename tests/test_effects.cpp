@@ -40,7 +40,7 @@ TEST(Effects, AreInTheListOfTheirKind)
     for (bool Effects::* other : {&Effects::shadow, &Effects::see_through, &Effects::highlight,
                                   &Effects::fractional_shine, &Effects::mirror, &Effects::transmit,
                                   &Effects::eye_surface, &Effects::light_surface, &Effects::grid, &Effects::adaptive,
-                                  &Effects::tree})
+                                  &Effects::tree, &Effects::light_map})
         EXPECT_EQ(holds(flags, other), 1);
 }
 

@@ -238,12 +238,13 @@ TEST(Parser, LightsWithoutColourShareOne) {
 }
 
 TEST(Parser, SceneWordsStandAnywhereAndTheLastCounts) {
-    ASSERT_PARSES("b 1 1 1 ambientlight 1 1 1 shadows on far 3 " + view +
-                  "s 0 0 0 1 b 64 0.25 0 ambientlight 0 64 0.5 shadows off far 1e-3");
+    ASSERT_PARSES("b 1 1 1 ambientlight 1 1 1 shadows on far 3 radiosity 2 " + view +
+                  "s 0 0 0 1 b 64 0.25 0 ambientlight 0 64 0.5 shadows off far 1e-3 radiosity 0.5");
     expect_vector(scene.background, 64, 0.25, 0);
     expect_vector(scene.ambient, 0, 64, 0.5);
     EXPECT_FALSE(scene.shadows);
     EXPECT_EQ(scene.far, 1e-3);
+    EXPECT_EQ(scene.radiosity, 0.5);
     ASSERT_PARSES("shadows off " + view + "shadows on");
     EXPECT_TRUE(scene.shadows);
 }
@@ -727,6 +728,9 @@ TEST(ParserError, Ranges) {
         {"texture noise 1 1 1 @1e16", above},
         {"texture noise 1 1 1 @1e-61", above},
         {"far @0", "'far' is 0; expected a number above 0"},
+        {"radiosity @0", "'radiosity' is 0; expected a number above 0, from 1e-60 to 1e15"},
+        {"radiosity @-2", "'radiosity' is -2; expected a number above 0, from 1e-60 to 1e15"},
+        {"radiosity @off", "found 'off', which is not a number"},
         {"far @-3", above},
         {"far @1e-400", above},
     };

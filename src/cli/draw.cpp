@@ -143,10 +143,44 @@ private:
     bool ready[max_slots] = {};
 };
 
-void* work(void* drawing)
+// Parts of some work, which threads take one by one.
+struct Parts {
+    void (*part)(void* work, uint32_t i);
+    void* of;
+    uint32_t count;
+    Progress progress;
+    std::atomic<uint32_t> next{0};
+
+    void work()
+    {
+        const bool shows = !shown.exchange(true);
+        for (uint32_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
+            part(of, i);
+            if (shows)
+                progress.update(i, count);
+        }
+    }
+    std::atomic<bool> shown{false}; // by the first thread
+};
+
+// Calls work.work() in so many threads, this one among them. Where no thread can be had, fewer do.
+template <class Work>
+void work_in_threads(Work& work, uint32_t threads)
 {
-    static_cast<Drawing*>(drawing)->work();
-    return nullptr;
+    pthread_attr_t small;
+    pthread_attr_init(&small);
+    pthread_attr_setstacksize(&small, stack_bytes);
+    pthread_t others[max_threads];
+    uint32_t started = 0;
+    const auto start = [](void* it) -> void* {
+        static_cast<Work*>(it)->work();
+        return nullptr;
+    };
+    while (started + 1 < threads && pthread_create(&others[started], &small, start, &work) == 0)
+        started++;
+    work.work();
+    for (uint32_t i = 0; i < started; i++)
+        pthread_join(others[i], nullptr);
 }
 
 } // namespace
@@ -167,6 +201,12 @@ uint32_t thread_count(uint32_t asked)
     return std::min(std::max(static_cast<uint32_t>(n), 1u), max_threads);
 }
 
+void run_in_threads(void (*part)(void* work, uint32_t i), void* work, uint32_t count, const scene::Solving& with)
+{
+    Parts parts{part, work, count, Progress(with.progress)};
+    work_in_threads(parts, std::min(with.threads, count));
+}
+
 bool draw_picture(const Renderer& renderer, const Built& picture, uint32_t threads, Output& output, bool progress,
                   RayCounts& counts)
 {
@@ -177,18 +217,7 @@ bool draw_picture(const Renderer& renderer, const Built& picture, uint32_t threa
     const int length = snprintf(head, sizeof head, "P6\n%u %u\n255\n", picture.width, picture.height);
     if (!output.write(head, static_cast<size_t>(length)))
         return false;
-    pthread_attr_t small;
-    pthread_attr_init(&small);
-    pthread_attr_setstacksize(&small, stack_bytes);
-    pthread_t others[max_threads];
-    uint32_t started = 0;
-    // Where no thread can be had, fewer do.
-    while (started + 1 < std::min(threads, drawing.block_count())
-           && pthread_create(&others[started], &small, work, &drawing) == 0)
-        started++;
-    drawing.work();
-    for (uint32_t i = 0; i < started; i++)
-        pthread_join(others[i], nullptr);
+    work_in_threads(drawing, std::min(threads, drawing.block_count()));
     for (int i = 0; i < 4; i++)
         counts.rays[i] += drawing.counts.rays[i];
     return drawing.whole();

@@ -1,6 +1,7 @@
 // A picture as binary PPM, drawn by threads that take blocks of rows and written from the top.
 #pragma once
 
+#include "../scene/radiosity.hpp"
 #include "output.hpp"
 #include "renderer.hpp"
 
@@ -11,6 +12,9 @@ double now();
 
 // Threads for a picture, this one among them: as many as asked for, or as there are processors.
 uint32_t thread_count(uint32_t asked);
+
+// As Solving has it.
+void run_in_threads(void (*part)(void* work, uint32_t i), void* work, uint32_t count, const scene::Solving& with);
 
 // The bytes do not depend on `threads`, at most max_threads. Adds up the rays. False where a write failed. Shows how
 // much is done, and the time left, on standard error where that is asked for.

@@ -15,6 +15,7 @@ namespace qray::cli {
 namespace {
 
 scene::Description description;
+double solving_seconds = 0;
 
 const char* file_part(const char* path)
 {
@@ -66,7 +67,12 @@ int load(const Options& options, const Renderer& renderer, const char* out, Buil
     }
     if (is_scene_file(out))
         return bad_options("'%s' is the scene itself; give another name with '-o FILE'", scene::ShownName(out).text);
-    if (!renderer.build(description, options.settings, built, error)) {
+    const bool shown = !options.quiet && isatty(STDERR_FILENO);
+    const scene::Solving solving{make_room, run_in_threads, thread_count(options.threads), shown};
+    const double start = now();
+    const bool solved = solve_radiosity(description, solving, error);
+    solving_seconds = now() - start;
+    if (!solved || !renderer.build(description, options.settings, built, error)) {
         fprintf(stderr, "%s: %s\n", scene::ShownName(options.scene).text, error.text);
         return 1;
     }
@@ -121,7 +127,7 @@ int draw(const Options& options, const char* out)
     if (!output.open(out) || !draw_picture(renderer, built, threads, output, shown, counts) || !output.commit())
         return output.report();
     if (options.stats)
-        print_stats(options, description, built, threads, counts, {start - begin, now() - start});
+        print_stats(options, description, built, threads, counts, {start - begin, now() - start, solving_seconds});
     return 0;
 }
 

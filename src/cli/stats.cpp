@@ -66,6 +66,13 @@ void print_stats(const Options& options, const scene::Description& description, 
     fprintf(stderr, "depth: %" PRIu32 "\ncutoff: %g\nthreads: %" PRIu32 "\n", settings.depth, settings.cutoff,
             threads);
 
+    if (description.radiosity > 0)
+        fprintf(stderr,
+                "radiosity_cells: %" PRIu32 "\nradiosity_nodes: %" PRIu32 "\nradiosity_parts: %" PRIu32 "\nradiosity_rays: %" PRIu64
+                "\nradiosity_rounds: %" PRIu32 "\nradiosity_change: %.3g\nradiosity_seconds: %.4f\n",
+                description.cell_count, description.light_size, description.cut_count, description.light_rays,
+                description.light_rounds, description.light_change, seconds.solving);
+
     uint64_t rays = 0;
     for (int i = 0; i < 4; i++) {
         constexpr const char* kinds[] = {"camera", "shadow", "mirrored", "refracted"};

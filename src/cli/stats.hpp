@@ -6,7 +6,7 @@
 namespace qray::cli {
 
 struct Seconds {
-    double reading, drawing;
+    double reading, drawing, solving; // the light of surfaces, in reading
 };
 
 // What was in a scene and what drawing it took, one `name: value` a line.

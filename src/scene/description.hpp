@@ -31,6 +31,7 @@ struct Limits {
     static constexpr uint32_t lights = 64;
     static constexpr uint32_t places = 16;          // of a panel, along an edge
     static constexpr uint32_t light_surfaces = 1'024; // that a light lies on, on average
+    static constexpr uint32_t cells = 32'768;         // of light, on both sides of all flat surfaces
     static constexpr uint32_t resolution = 32'768;  // pixels along either edge
     static constexpr uint32_t text = 256u << 20;    // bytes of scene text, and of a mesh's file
     static constexpr uint32_t images = 64;          // different files
@@ -106,6 +107,27 @@ struct Warning {
     }
 };
 
+// Where light is known on a side of a flat surface: at nodes, each so many steps from an edge of its rectangle.
+struct NodeAxis {
+    Vec3d along; // along.(p - origin) counts steps
+    uint32_t steps, first, count; // of the whole rectangle; its nodes
+};
+// Walls cut what is between four nodes in parts, which have a light at each of the four by themselves.
+struct WallCut {
+    Vec3d normal;
+    double height;         // of the wall's plane: normal.p
+    uint32_t above, below; // links: 2 k + 1 to cut k of the grid, 2 k + 2 to its part k
+};
+struct LightGrid {
+    uint32_t place; // of the surface in the scene file
+    Vec3d origin;
+    NodeAxis x, y;
+    uint32_t first;               // of its lights, row by row, and four of each part behind them
+    uint32_t cuts, parts;         // how many
+    uint32_t first_cut, first_root; // what is between four nodes has a link, or 0; row by row
+    uint32_t lights() const { return x.count * y.count + 4 * parts; }
+};
+
 // One line for people: file:line:column: text.
 struct Error {
     char text[512] = {};
@@ -141,6 +163,17 @@ struct Description {
     uint32_t image_count = 0;
     ImageSource images[Limits::images + 1]; // the last while it is read
     Bytes image_bytes; // in a room of its own
+    double radiosity = 0; // the longest edge of a cell; 0: none
+    Room light_room; // the caller's, for what solve_radiosity() finds:
+    LightGrid* grids = nullptr; // two a surface that takes part: outside, inside
+    uint16_t* nodes = nullptr;
+    WallCut* cuts = nullptr;
+    uint32_t* roots = nullptr;
+    Vec3d* light = nullptr; // what arrives at each two nodes, times diffuse
+    uint32_t grid_count = 0, node_count = 0, cut_count = 0, root_count = 0, light_size = 0;
+    uint32_t cell_count = 0, light_rounds = 0;
+    double light_change = 0; // the largest in the last round
+    uint64_t light_rays = 0;
 
     // Cuts arrays for so many, and as many fills as objects, from the room where it is large enough; returns how many
     // bytes it must have.

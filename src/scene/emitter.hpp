@@ -37,6 +37,13 @@ constexpr const char* fields_of(std::string_view table)
         {"panels", "corner, steps from place to place, all / 2^shift; shift; colour; places along an edge; number"},
         {"suns", "direction towards it; colour"},
         {"entries", "boxes, a tree in preorder: middle; half; link"},
+        {"lights_of", "by place in the scene file: number of the outside's light map, of the inside's; from 2^31 even lights"},
+        {"even_lights", "light that is the same everywhere on a side, times diffuse; ambient light"},
+        {"light_maps", "along columns, and rows: coordinate; knots, steps, nodes; what 256 stands for; first cell, root, cut"},
+        {"light_knots", "by steps along an axis: the node there, in 2^-8; roots of cuts"},
+        {"light_cuts", "plane of a wall; link above, below: 2 k + 1 to cut k, 2 k + 2 to part k"},
+        {"light_planes", "normal; height"},
+        {"light_cells", "red, green, blue of the light at each node, times diffuse"},
         {"light_surfaces", "light, or complement of a panel; tag of the surface that it lies on; normal there; side"},
     };
     for (const auto& k : known)
@@ -118,7 +125,7 @@ private:
         effects();
         for_each_table(s, e, [this](const auto& array, const char* type, const char* name) {
             out.print("\n// %s\ninline constexpr qray::%s<Number> %s[] = {\n", fields_of(name), type, name);
-            constexpr uint32_t in_line = sizeof array.data[0] == 1 ? 24 : 1;
+            constexpr uint32_t in_line = std::is_integral_v<std::remove_reference_t<decltype(array.data[0])>> ? 24 : 1;
             for (uint32_t i = 0; i < array.count; i++) {
                 out.put(i % in_line == 0 ? "    " : " ");
                 value(array.data[i]);

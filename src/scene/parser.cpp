@@ -162,6 +162,7 @@ private:
             {"mesh", &Parser::mesh},
             {"shadows", &Parser::shadows},
             {"far", &Parser::far},
+            {"radiosity", &Parser::radiosity},
         };
         return all;
     }
@@ -257,6 +258,7 @@ private:
     bool background() { return colour("the background", light_range, out.background); }
     bool ambient_light() { return colour("the ambient light", light_range, out.ambient); }
     bool far() { return number("'far'", size_range, out.far); }
+    bool radiosity() { return number("'radiosity'", size_range, out.radiosity); }
     bool lamp()
     {
         return light([this](LightSource& l) { return point("the place of a light", l.at); });
@@ -610,11 +612,12 @@ private:
 
 bool parse(const char* name, const char* text, size_t size, Description& out, Error& error, const Files* files)
 {
-    const Room room = out.room, beside = out.files.room, images = out.image_bytes.room;
+    const Room room = out.room, beside = out.files.room, images = out.image_bytes.room, light = out.light_room;
     out = {};
     out.room = room;
     out.files.room = beside;
     out.image_bytes.room = images;
+    out.light_room = light;
     error.text[0] = 0;
     return Parser(name, text, size, out, error, files).parse();
 }

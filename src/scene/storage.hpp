@@ -112,6 +112,17 @@ struct Storage {
             QRAY_LIGHTS(QRAY_CUT)
 #undef QRAY_CUT
             cut(light_surfaces, d.light_count * Limits::light_surfaces);
+            const uint32_t lit = d.radiosity > 0 ? all : 0;
+            cut(lights_of, lit);
+            cut(even_lights, 2 * lit);
+            cut(light_maps, d.grid_count);
+            cut(light_cells, 3 * d.light_size);
+            uint32_t knots = d.root_count;
+            for (uint32_t i = 0; i < d.grid_count; i++)
+                knots += d.grids[i].x.steps + d.grids[i].y.steps + 2;
+            cut(light_knots, knots);
+            cut(light_cuts, d.cut_count);
+            cut(light_planes, d.cut_count);
         });
     }
 

@@ -37,7 +37,8 @@ SHAPES = {name: name + ("es" if name[-1] in "hsx" else "s") for name in told()["
 # it.
 FILES = {
     "camera": "camera render grid adaptive", "nearest hit": "nearest tree shadow see_through",
-    "shading": "trace highlight light sun panel mirror transmit", "textures": " ".join([*told()["textures"], "texels"]),
+    "shading": "trace highlight light sun panel light_map light_of_surfaces mirror transmit",
+    "textures": " ".join([*told()["textures"], "texels"]),
     "output": "sampler sink ppm main",
 }
 STEPS = {**SHAPES, **{file: step for step, files in FILES.items() for file in files.split()}}

@@ -3,6 +3,7 @@
 // A line says what the combs are, and one for each picture but the first what it has in combs FIRST to LAST - 1: rays,
 // the sum of squared differences to the first picture, and pixels whose centre shows another object than there.
 // Nothing of a picture that does not fit its number system.
+#include "../cli/draw.hpp"
 #include "../cli/input.hpp"
 #include "../cli/renderer.hpp"
 #include "scattered.hpp"
@@ -114,7 +115,10 @@ int main(int argc, char** argv)
         cli::Options options;
         scene::Error error;
         int status = cli::read_options(cli::Command::draw, end - at, argv + at, options);
-        if (status == cli::go_on && at == 1 && !cli::read_scene(options.scene, study::description, error))
+        const scene::Solving solving{cli::make_room, cli::run_in_threads, cli::thread_count(options.threads)};
+        if (status == cli::go_on && at == 1
+            && !(cli::read_scene(options.scene, study::description, error)
+                 && solve_radiosity(study::description, solving, error)))
             status = cli::bad_options("%s", error.text);
         if (status == cli::go_on)
             status = study::measure(options, first, last, at == 1);

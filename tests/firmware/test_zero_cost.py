@@ -47,6 +47,7 @@ def scene(absent):
     parts = [text for name, text in MATERIAL.items() if name not in absent]
     eye = "0 0 5" if "eye_surface" in absent else places[0]
     text = VIEW % eye + "".join(lights) + ("shadows off\n" if "shadow" in absent else "")
+    text += "" if "light_map" in absent else "radiosity 1\n"
     text += "material colour 0.5 0.6 0.7 diffuse 0.5 " + " ".join(parts) + "\n" + "\n".join(shapes) + "\n"
     for name, numbers in TEXTURE.items():
         if name not in absent:

@@ -52,6 +52,8 @@ public:
             if (random.chance(0.1))
                 s += last; // twice the same
         }
+        if (random.chance(0.1))
+            s += "radiosity " + number(std::fabs(coordinate()) + 1e-50) + "\n";
         return s;
     }
 

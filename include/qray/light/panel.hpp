@@ -20,11 +20,14 @@ struct Panel {
     uint8_t number;          // among panels
 
     // Calls f(light) for every place.
-    template <class F>
-    QRAY_INLINE constexpr void for_each_place(const EyeSample& sample, F f) const
+    template <class Sample, class F>
+    QRAY_INLINE constexpr void for_each_place(const Sample& sample, F f) const
     {
         uint32_t h = 0;
-        hash(sample.x, sample.y, number, h);
+        if constexpr (requires { sample.x; })
+            hash(sample.x, sample.y, number, h);
+        else
+            h = 0x80008000;
         Point<N> row = corner + part(step_u, h & 0xffff) + part(step_v, h >> 16);
         for (uint32_t m = 0; m < places; m++) {
             Point<N> at = row;

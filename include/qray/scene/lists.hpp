@@ -24,6 +24,7 @@
 #include "../texture/globe.hpp"
 #include "../texture/gradient.hpp"
 #include "../texture/image.hpp"
+#include "../texture/light_map.hpp"
 #include "../texture/marble.hpp"
 #include "../texture/noise.hpp"
 #include "../texture/rings.hpp"
@@ -76,6 +77,7 @@
     X(, transmit, ) \
     X(, eye_surface, ) /* the eye lies on a surface */ \
     X(, light_surface, ) /* so does a light */ \
+    X(, light_map, )   /* flat surfaces light one another */ \
     X(, grid, )        /* several samples a pixel, */ \
     X(, adaptive, )    /* or as many as it takes */ \
     X(, tree, )        /* of a desktop, over the shapes */ \
@@ -93,6 +95,13 @@
     QRAY_TEXTURES(X) \
     QRAY_LIGHTS(X) \
     X(LightSurface, light_surface, light_surfaces) \
+    X(LightOf, light_map, lights_of) /* by place in the scene file */ \
+    X(EvenLight, light_map, even_lights) \
+    X(LightMap, light_map, light_maps) \
+    X(LightKnot, light_map, light_knots) \
+    X(LightCut, light_map, light_cuts) \
+    X(LightPlane, light_map, light_planes) \
+    X(LightCell, light_map, light_cells) \
     X(TreeEntry, flat_tree, entries)
 
 namespace qray {

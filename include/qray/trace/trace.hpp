@@ -1,6 +1,7 @@
 // The Whitted tracer: light at a point, and the loop over mirrored and refracted rays.
 #pragma once
 
+#include "light_of_surfaces.hpp"
 #include "nearest.hpp"
 #include "see_through.hpp"
 #include "shadow.hpp"
@@ -225,9 +226,9 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
 }
 
 // Adds the light of a panel, as the eye's sample shifts its places.
-template <class N, Effects E, class Count>
+template <class N, Effects E, class Count, class Sample>
 constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen, const Panel<N>& panel, Gathered<N, E>& sum,
-                      Count& count, EyeSample sample)
+                      Count& count, Sample sample)
 {
     GatheredShares<N> shares;
     panel.for_each_place(sample, [&](const Light<N>& place) __attribute__((always_inline)) {
@@ -251,6 +252,9 @@ template <class N, Effects E, class Count, class... Sample>
 QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N>& seen, Count& count, Sample... sample)
 {
     Gathered<N, E> sum{scene.mattes[seen.material].ambient, {}};
+    if constexpr (E.light_map)
+        if (scene.lights_of.count != 0)
+            sum.matte = sum.matte + light_of_surfaces(scene, seen.tag, seen.surface.turned, seen.surface.point);
 #define QRAY_GATHER(Type, name, table) \
     if constexpr (E.name) \
         for (uint32_t i = 0; i < scene.table.count; i++) { \

@@ -36,6 +36,9 @@ struct EyeSample {
     uint32_t x, y;
 };
 
+// Of no sample of the eye's: panels shine from the middles of their places.
+struct PanelMiddle {};
+
 // How a ray stands to a surface that it meets.
 enum class Leaves { no, outward, inward };
 

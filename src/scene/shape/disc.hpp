@@ -35,6 +35,23 @@ struct Host<Disc> : HostOfShape {
         return length(p - o.a) <= o.ra + off ? above_plane(o.a, unit(o.b), p, off) : Above{};
     }
 
+    // Of as many corners and the same area as these.
+    template <class F>
+    static void outline(const Description&, const Object& o, F f)
+    {
+        if (is_endless(o))
+            return;
+        const Vec3d n = unit(o.b), u = unit_across(n), v = cross(n, u);
+        const double turn[] = {0.98078528040323045, 0.19509032201612827}; // cosine and sine of 1/32
+        double x = o.ra * 1.0032220804984129, y = 0; // sqrt(pi / (16 sin(pi / 16)))
+        for (int i = 0; i < 32; i++) {
+            f(o.a + u * x + v * y);
+            const double next = x * turn[0] - y * turn[1];
+            y = x * turn[1] + y * turn[0];
+            x = next;
+        }
+    }
+
     template <class B>
     static void convert(B& b, const Object& o, uint32_t place)
     {

@@ -8,7 +8,7 @@
 //   convert         pushes the tracer's structures of an object, by a Builder
 //   box             the extent of the tracer's structure in the moved and scaled scene, for trees
 //   random          a random object as text, for tests
-// and, where it differs from HostOfShape's, surfaces_of, widest, range and is_endless.
+// and, where it differs from HostOfShape's, surfaces_of, widest, range, is_endless and outline.
 #pragma once
 
 #include "../convert.hpp"
@@ -37,6 +37,11 @@ struct HostOfShape {
     static double range(const Object&) { return 0; }
     // Does it reach as far as the scene allows?
     static bool is_endless(const Object&) { return false; }
+    // Calls f(corner) for those of what is flat and ends: of what takes part in radiosity.
+    template <class F>
+    static void outline(const Description&, const Object&, F)
+    {
+    }
 };
 
 // What the tracer's numbers are.

@@ -26,6 +26,12 @@ struct Host<Polygon> : HostOfCorners {
         return lies_in_figure(d.vertices + o.vertex, o.count, p, off);
     }
 
+    template <class F>
+    static void outline(const Description& d, const Object& o, F f)
+    {
+        for (uint32_t i = 0; i < o.count; i++)
+            f(d.vertices[o.vertex + i]);
+    }
     template <class B>
     static void convert(B& b, const Object& o, uint32_t place)
     {
