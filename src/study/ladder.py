@@ -16,6 +16,7 @@ l 5 8 6  0.8 0.8 0.8
 {second light}
 {panel of 4}
 {panel of 16}
+{radiosity}
 material colour 0.8 0.8 0.8 diffuse 0.8 {checker}
 disc 0 0 0  0 1 0  8
 material colour 0.9 0.3 0.2 diffuse 0.8 {highlight} {mirror} {noise}
@@ -49,6 +50,7 @@ STEPS = [
     ("emission", "emission 0.5", {}),
     ("panel of 4", "panel 2  -2 5 4  0.5 0 0  0 0 0.5  0.3 0.3 0.3", {}),
     ("panel of 16", "panel 4  2 5 4  0.5 0 0  0 0 0.5  0.3 0.3 0.3", {}),
+    ("radiosity", "radiosity 1", {}),
     ("4 samples", "", {"SAMPLES": 4}),
 ]
 

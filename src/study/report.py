@@ -11,6 +11,7 @@ import sys
 sys.dont_write_bytecode = True
 import growth  # noqa: E402
 import ladder  # noqa: E402
+import radiosity  # noqa: E402
 import runs  # noqa: E402
 import text as texts  # noqa: E402
 from text import count, table  # noqa: E402
@@ -59,6 +60,7 @@ REPORTS = {
                                                      for n in runs.numbers()]),
     **texts.REPORTS,
     **growth.REPORTS,
+    **radiosity.REPORTS,
     "effects": (effects, lambda: ["+ " + name for name, *_ in ladder.STEPS[1:]]),
 }
 
