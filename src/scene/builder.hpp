@@ -488,10 +488,10 @@ private:
     {
         const Rgb<N> c = colour(light);
         uint32_t i = s.even_lights.count;
-        while (i > 0 && !(s.even_lights.data[i - 1] == c))
+        while (i > 0 && !(s.even_lights.data[i - 1].light == c))
             i--;
         if (i == 0) {
-            s.even_lights.push() = c;
+            s.even_lights.push() = {c};
             i = s.even_lights.count;
         }
         return LightOf<N>::even + i - 1;
@@ -517,14 +517,14 @@ private:
                                static_cast<uint16_t>(grid.y.count), s.light_cells.count,
                                grid.cuts != 0 ? s.light_knots.count : LightMap<N>::whole, s.light_cuts.count};
         for (uint32_t i = 0; grid.cuts != 0 && i < (grid.x.count - 1) * (grid.y.count - 1); i++)
-            s.light_knots.push() = static_cast<uint16_t>(d.roots[grid.first_root + i]);
+            s.light_knots.push() = {static_cast<uint16_t>(d.roots[grid.first_root + i])};
         for (uint32_t i = grid.first_cut; i < grid.first_cut + grid.cuts; i++) {
             const WallCut& cut = d.cuts[i];
             s.light_cuts.push() = {light_plane(cut), static_cast<uint16_t>(cut.above), static_cast<uint16_t>(cut.below)};
         }
         for (const Vec3d* c = first; c != end; c++)
             for (double Vec3d::*part : {&Vec3d::x, &Vec3d::y, &Vec3d::z})
-                s.light_cells.push() = static_cast<uint8_t>(fmin(floor(c->*part / step.*part + 0.5), steps));
+                s.light_cells.push() = {static_cast<uint8_t>(fmin(floor(c->*part / step.*part + 0.5), steps))};
         return s.light_maps.count - 1;
     }
 
@@ -577,7 +577,7 @@ private:
             while (i + 2 < from.count && node[i + 1] <= k)
                 i++;
             const double at = 256 * (i + (static_cast<double>(k) - node[i]) / (node[i + 1] - node[i]));
-            s.light_knots.push() = static_cast<uint16_t>(std::clamp(static_cast<int>(at + 0.5), 0, most));
+            s.light_knots.push() = {static_cast<uint16_t>(std::clamp(static_cast<int>(at + 0.5), 0, most))};
         }
         return {axis, static_cast<int32_t>(256 * from.steps - 1), first};
     }

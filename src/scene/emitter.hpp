@@ -125,7 +125,7 @@ private:
         effects();
         for_each_table(s, e, [this](const auto& array, const char* type, const char* name) {
             out.print("\n// %s\ninline constexpr qray::%s<Number> %s[] = {\n", fields_of(name), type, name);
-            constexpr uint32_t in_line = std::is_integral_v<std::remove_reference_t<decltype(array.data[0])>> ? 24 : 1;
+            constexpr uint32_t in_line = sizeof array.data[0] <= 2 ? 24 : 1;
             for (uint32_t i = 0; i < array.count; i++) {
                 out.put(i % in_line == 0 ? "    " : " ");
                 value(array.data[i]);

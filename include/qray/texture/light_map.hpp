@@ -14,13 +14,18 @@ struct LightOf {
     uint32_t outside, inside;
 };
 
+// Types of their own: absent tables of one type would take room in a scene.
 template <class N>
-using EvenLight = Rgb<N>;
+struct EvenLight {
+    Rgb<N> light;
+};
 
 // A scene's table of where, along an axis of a map, its nodes are: by steps, the node there in 2^-8. And of where walls
 // cut what is between four nodes: 0, or a link: 2 k + 1 to cut k of the map, 2 k + 2 to part k of what cuts leave.
 template <class N>
-using LightKnot = uint16_t;
+struct LightKnot {
+    uint16_t value;
+};
 template <class N>
 struct LightCut {
     uint16_t plane, above, below; // links
@@ -32,7 +37,9 @@ struct LightPlane {
 };
 // And of the light at all nodes: red, green and blue each.
 template <class N>
-using LightCell = uint8_t;
+struct LightCell {
+    uint8_t value;
+};
 
 // How many steps along an axis a point is, in 2^-8: row . q + offset, at most 2^30 either way.
 template <class N>
@@ -66,14 +73,14 @@ struct LightAxis {
     uint32_t knots; // the first of its own
 
     // The node before a point, and how far the next is, in 2^-8.
-    QRAY_INLINE constexpr uint32_t operator()(const Point<N>& q, const uint16_t* table) const
+    QRAY_INLINE constexpr uint32_t operator()(const Point<N>& q, const LightKnot<N>* table) const
     {
         int32_t p = steps(q);
         p = p < 0 ? 0 : p > last ? last : p;
         if (knots == even)
             return static_cast<uint32_t>(p);
-        const uint16_t* const at = table + knots + (p >> 8);
-        return at[0] + (static_cast<uint32_t>((at[1] - at[0]) * (p & 255)) >> 8);
+        const LightKnot<N>* const at = table + knots + (p >> 8);
+        return at[0].value + (static_cast<uint32_t>((at[1].value - at[0].value) * (p & 255)) >> 8);
     }
 };
 
@@ -91,11 +98,11 @@ struct LightMap {
     template <class Scene>
     QRAY_INLINE constexpr Rgb<N> at(const Point<N>& q, const Scene& scene) const
     {
-        const uint16_t* const knots = scene.light_knots.data;
+        const LightKnot<N>* const knots = scene.light_knots.data;
         const uint32_t u = x(q, knots), v = y(q, knots);
         uint32_t cell = (v >> 8) * columns + (u >> 8), row = columns;
         if (roots != whole)
-            if (uint32_t link = knots[roots + cell - (v >> 8)]; link != 0) {
+            if (uint32_t link = knots[roots + cell - (v >> 8)].value; link != 0) {
                 while (link % 2 != 0) {
                     const LightCut<N>& cut = scene.light_cuts[cuts + link / 2];
                     const LightPlane<N>& plane = scene.light_planes[cut.plane];
@@ -104,17 +111,18 @@ struct LightMap {
                 cell = uint32_t{columns} * rows + 2 * link - 4;
                 row = 2;
             }
-        const uint8_t* const low = scene.light_cells.data + first + 3 * cell;
-        const uint8_t* const high = low + 3 * row;
+        const LightCell<N>* const low = scene.light_cells.data + first + 3 * cell;
+        const LightCell<N>* const high = low + 3 * row;
         return {light(low, high, u & 255, v & 255, scale.x), light(low + 1, high + 1, u & 255, v & 255, scale.y),
                 light(low + 2, high + 2, u & 255, v & 255, scale.z)};
     }
 
 private:
-    QRAY_INLINE static constexpr typename N::Colour light(const uint8_t* low, const uint8_t* high, uint32_t u,
+    QRAY_INLINE static constexpr typename N::Colour light(const LightCell<N>* low, const LightCell<N>* high, uint32_t u,
                                                           uint32_t v, typename N::Colour scale)
     {
-        const uint32_t below = low[0] * (256 - u) + low[3] * u, above = high[0] * (256 - u) + high[3] * u;
+        const uint32_t below = low[0].value * (256 - u) + low[3].value * u;
+        const uint32_t above = high[0].value * (256 - u) + high[3].value * u;
         const uint32_t sum = below * (256 - v) + above * v; // in 2^-16, below 2^24
         if constexpr (NarrowFixed<N>)
             return {static_cast<int32_t>((sum >> 9) * static_cast<uint32_t>(scale.raw) >> 15)};

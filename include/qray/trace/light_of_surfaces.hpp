@@ -13,7 +13,7 @@ QRAY_INLINE constexpr Rgb<N> light_of_surfaces(const Scene<N, E>& scene, Tag tag
     const LightOf<N>& of = scene.lights_of[tag.place()];
     const uint32_t number = inside ? of.inside : of.outside;
     if (number >= LightOf<N>::even)
-        return scene.even_lights[number - LightOf<N>::even];
+        return scene.even_lights[number - LightOf<N>::even].light;
     return scene.light_maps[number].at(q, scene);
 }
 
