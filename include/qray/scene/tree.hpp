@@ -272,18 +272,18 @@ QRAY_INLINE void walk(const Tree<N>& tree, const Ray<N>& ray, Limit limit, Visit
             link = node.links[i];
             if (mask == 0)
                 continue;
-            const union {
-                Bounds entered;
-                uint32_t bits[bound_lanes]; // of numbers >= 0: in their order
-            } from{entered};
-            uint64_t nearest = uint64_t{from.bits[i]} << 32 | link;
+            struct Bits {
+                uint32_t of[bound_lanes]; // of numbers >= 0: in their order
+            };
+            const Bits bits = __builtin_bit_cast(Bits, entered);
+            uint64_t nearest = uint64_t{bits.of[i]} << 32 | link;
             uint64_t* const base = top;
             do {
                 i = lowest_bit(mask);
                 mask &= mask - 1;
                 uint64_t* at = top++;
                 if constexpr (NearestFirst) {
-                    const uint64_t e = uint64_t{from.bits[i]} << 32 | node.links[i];
+                    const uint64_t e = uint64_t{bits.of[i]} << 32 | node.links[i];
                     const uint64_t farther = e > nearest ? e : nearest;
                     nearest = e > nearest ? nearest : e;
                     for (; at != base && at[-1] < farther; at--)
