@@ -133,6 +133,11 @@ void surface_of(const Asked&, const Corners<N>&, const Ray<N>&, typename N::Leng
                 Direction<N>&);
 template <class N>
 bool surely_missed(const Asked&, const RejectRay<N>&);
+template <class S, class N>
+    requires std::is_base_of_v<Asked, S>
+bool move(const S&, const Corners<N>&, const Motion<N>&, S&, const MovedCorners<N>&);
+template <class N>
+Box<N> box_of(const Asked&, const Corners<N>&);
 
 struct Whole : Asked {
     static constexpr bool has_corners = false, is_curved = false, is_smooth = false, is_short = false;

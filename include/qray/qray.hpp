@@ -9,3 +9,5 @@
 #define QRAY_VERSION 10000 // 1.0.0: two digits each
 
 #include "picture/render.hpp"
+#include "scene/look_at.hpp"
+#include "scene/refit.hpp"

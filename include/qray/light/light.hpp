@@ -1,7 +1,7 @@
 // Point lights.
 #pragma once
 
-#include "../vector/ray.hpp"
+#include "../vector/motion.hpp"
 
 namespace qray {
 
@@ -38,6 +38,50 @@ QRAY_INLINE constexpr bool towards(const Light<N>& light, const Point<N>& q, Dir
         distance = dot<N>(v, l);
         return true;
     }
+}
+
+// The lamp that the text has as `l` at this place. False, and nothing changes, where that is too far away.
+template <class N>
+constexpr bool place(Light<N>& light, const Frame<N>& frame, const ScenePoint<N>& at)
+{
+    using Length = typename N::Length;
+    Point<N> p = frame.point(at);
+    int32_t shift = 0;
+    if constexpr (N::is_fixed) {
+        constexpr int32_t world = 62 << Length::frac;
+        const auto inside = [&p] {
+            const auto fits = [](Length v) { return v.raw <= world && v.raw >= -world; };
+            return NarrowFixed<N> ? wide_norm2(p.x.raw, p.y.raw, p.z.raw) <= wide_square(world)
+                                  : fits(p.x) && fits(p.y) && fits(p.z);
+        };
+        for (; !inside(); p = frame.point(at, shift))
+            if (++shift > 30)
+                return false;
+    } else {
+        constexpr Length least = Length(1) / Length(int64_t{1} << 38), most = Length(int64_t{1} << 60);
+        const auto off_zero = [](Length& v) {
+            if (N::absolute(v) < least)
+                v = N::negative(v) ? -least : least;
+            return N::absolute(v) <= most;
+        };
+        if (sizeof(Length) == 4 ? !off_zero(p.x) || !off_zero(p.y) || !off_zero(p.z) : !(norm2<N>(p) <= most * most))
+            return false;
+    }
+    light.at = p;
+    light.shift = shift;
+    return true;
+}
+
+// False, and nothing changes, where it leaves the world; also of one that stands outside of it: place() moves these.
+template <class N>
+constexpr bool move(const Light<N>& from, const Motion<N>& motion, Light<N>& to)
+{
+    const Point<N> at = motion(from.at);
+    if (!motion.valid() || from.shift != 0 || !ball_in_world<N>(at))
+        return false;
+    to = from;
+    to.at = at;
+    return true;
 }
 
 } // namespace qray

@@ -56,4 +56,33 @@ private:
     }
 };
 
+// False, and nothing changes, where it leaves the world; also of one that stands outside of it.
+template <class N>
+constexpr bool move(const Panel<N>& from, const Motion<N>& motion, Panel<N>& to)
+{
+    constexpr int fine = Panel<N>::fine;
+    const auto inside = [](const Point<N>& p) {
+        if constexpr (fine == 0)
+            return ball_in_world<N>(p);
+        else
+            return ball_in_world<N>({{p.x.raw >> fine}, {p.y.raw >> fine}, {p.z.raw >> fine}});
+    };
+    Panel<N> s = from;
+    s.corner = motion(from.corner, fine);
+    s.step_u = motion.vector(from.step_u);
+    s.step_v = motion.vector(from.step_v);
+    if (!motion.valid() || from.shift != 0 || !inside(s.step_u) || !inside(s.step_v))
+        return false;
+    Point<N> u = s.corner, v = s.corner, across = s.corner;
+    for (uint32_t i = 0; i < s.places; i++) {
+        u = saturating_sum<N>(u, s.step_u);
+        v = saturating_sum<N>(v, s.step_v);
+        across = saturating_sum<N>(saturating_sum<N>(across, s.step_u), s.step_v);
+    }
+    if (!inside(s.corner) || !inside(u) || !inside(v) || !inside(across))
+        return false;
+    to = s;
+    return true;
+}
+
 } // namespace qray

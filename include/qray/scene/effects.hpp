@@ -12,6 +12,7 @@ struct Effects {
 #undef QRAY_EFFECT
     // entries of the tracer's stack: the greatest max depth. Only transmit has a stack.
     uint8_t depth = 5;
+    bool moving = false; // the camera stands beside the scene, in RAM
 
 #define QRAY_COUNT(Type, name, table) +name
     constexpr int shapes() const { return QRAY_SHAPES(QRAY_COUNT); }

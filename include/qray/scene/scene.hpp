@@ -23,6 +23,24 @@ struct Table {
 template <class T>
 struct Table<T, false> {};
 
+// A table whose contents change: as it is at first, in flash, and a copy in RAM.
+template <class T, uint32_t Count>
+struct MovingTable {
+    static constexpr uint32_t count = Count;
+    T data[Count];
+    constexpr T& operator[](uint32_t i) { return data[i]; }
+    constexpr const T& operator[](uint32_t i) const { return data[i]; }
+};
+
+template <class N, bool Moving>
+struct CameraOf {
+    using type = Camera<N>;
+};
+template <class N>
+struct CameraOf<N, true> {
+    using type = const Camera<N>&;
+};
+
 // A single value that only some scenes need.
 template <class T, bool Present>
 struct Maybe {
@@ -41,7 +59,7 @@ using TextureOf = TextureRef;
 
 template <class N, Effects E>
 struct Scene {
-    Camera<N> camera;
+    typename CameraOf<N, E.moving>::type camera;
     [[no_unique_address]] Maybe<EyeSurface<N>, E.eye_surface> eye_surface{};
     Rgb<N> background;
     int32_t exposure; // colours are stored divided by 2^exposure

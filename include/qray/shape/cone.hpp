@@ -226,4 +226,55 @@ constexpr void surface_of(const Cone<N>& s, const Corners<N>&, const Ray<N>& ray
     point = s.middle + coarse<N>(from_rounded(w - along<N>(height, n), s.rounded), s.fine);
 }
 
+template <class N>
+constexpr bool move(const Cone<N>& from, const Corners<N>&, const Motion<N>& motion, Cone<N>& to, const MovedCorners<N>&)
+{
+    using Length = typename N::Length;
+    constexpr int32_t world = NarrowFixed<N> ? 18 : 40; // what a ball may be
+    Cone<N> s = from;
+    s.middle = motion(from.middle);
+    s.e1 = motion.direction(from.e1);
+    s.e2 = motion.direction(from.e2);
+    s.axis = motion.direction(from.axis);
+    if (motion.turned() || motion.scaled())
+        s.rounded = {};
+    if (motion.scaled()) {
+        s.fine = block_scale<N>(motion.length(from.bound, -from.fine), 10 * world);
+        const int up = s.fine - from.fine;
+        s.rho0 = motion.length(from.rho0, up);
+        s.half = motion.length(from.half, up);
+        s.bound = motion.length(from.bound, up) + N::ulp + N::ulp;
+    }
+    const Length bound = N::coarse(s.bound, s.fine);
+    Length most{};
+    if constexpr (N::is_fixed)
+        most = {world << Length::frac};
+    else
+        most = world;
+    if (!motion.valid() || !(bound <= most) || !(s.half > N::length_zero) || !(s.half <= s.bound)
+        || !ball_in_world<N>(s.middle))
+        return false;
+    const Point<N> end = along<N>(N::coarse(s.half, s.fine), s.axis);
+    if (!ball_in_world<N>(s.middle + end) || !ball_in_world<N>(s.middle - end))
+        return false;
+    // No point of it is farther from the middle than its ball, nor from the axis than that lets it be.
+    if (!ball_in_world<N>(s.middle, bound)) {
+        Length rim{};
+        if constexpr (N::is_fixed)
+            rim = {static_cast<int32_t>(isqrt(wide_square(s.bound.raw) - wide_square(s.half.raw))) >> s.fine};
+        else
+            rim = N::sqrt(s.bound * s.bound - s.half * s.half);
+        if (!disc_in_world<N>(s.middle + end, s.axis, rim) || !disc_in_world<N>(s.middle - end, s.axis, rim))
+            return false;
+    }
+    to = s;
+    return true;
+}
+
+template <class N>
+constexpr Box<N> box_of(const Cone<N>& s, const Corners<N>&)
+{
+    return Box<N>::ball(s.middle, N::coarse_above(s.bound, s.fine));
+}
+
 } // namespace qray

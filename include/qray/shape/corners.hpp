@@ -248,4 +248,42 @@ QRAY_INLINE constexpr Direction<N> blended_normal(const S& s, const Corners<N>& 
     return n;
 }
 
+// Moves a figure's normal, its ball and its corners; corner(i) is the number of the i-th.
+template <class N, class S, class Corner>
+constexpr bool move_figure(const S& from, uint32_t count, Corner corner, const Corners<N>& corners, const Motion<N>& motion,
+                           S& to, const MovedCorners<N>& moved)
+{
+    if (!motion.valid())
+        return false;
+    for (uint32_t i = 0; i < count; i++)
+        if (!ball_in_world<N>(motion(corners.points[corner(i)])))
+            return false;
+    const Point<N> middle = motion(from.middle);
+    const bool rounds = motion.turned() || motion.scaled();
+    const auto bound = motion.length(from.bound) + (rounds ? N::ulp + N::ulp + N::ulp : N::length_zero);
+    if (!ball_in_world<N>(middle) || !ball_in_world<N>({}, bound))
+        return false;
+    if (moved.points == nullptr)
+        return true;
+    for (uint32_t i = 0; i < count; i++)
+        moved.points[corner(i)] = motion(corners.points[corner(i)]);
+    if constexpr (S::is_smooth)
+        for (uint32_t i = 0; i < count; i++)
+            moved.normals[corner(i)] = motion.blend(corners.normals[corner(i)]);
+    to = from;
+    to.normal = motion.direction(from.normal);
+    to.middle = middle;
+    to.bound = bound;
+    return true;
+}
+
+template <class N, class Corner>
+constexpr Box<N> box_of_figure(uint32_t count, Corner corner, const Corners<N>& corners)
+{
+    Box<N> box{corners.points[corner(0)], corners.points[corner(0)]};
+    for (uint32_t i = 1; i < count; i++)
+        box.add(corners.points[corner(i)], corners.points[corner(i)]);
+    return box;
+}
+
 } // namespace qray

@@ -56,4 +56,25 @@ QRAY_INLINE constexpr void surface_of(const Disc<N>& s, const Corners<N>&, const
     point = on_plane<N>(s.centre, n, ray.origin + along<N>(t, ray.direction));
 }
 
+template <class N>
+constexpr bool move(const Disc<N>& from, const Corners<N>&, const Motion<N>& motion, Disc<N>& to, const MovedCorners<N>&)
+{
+    const Disc<N> s{motion(from.centre), motion.direction(from.normal), motion.length(from.radius), from.tag};
+    if (!motion.valid() || !(s.radius > N::length_zero) || !disc_in_world<N>(s.centre, s.normal, s.radius))
+        return false;
+    to = s;
+    return true;
+}
+
+template <class N>
+constexpr Box<N> box_of(const Disc<N>& s, const Corners<N>&)
+{
+    const auto side = [&s](auto a, auto b) { // some steps more than the root's and the product's roundings
+        return N::length(s.radius * N::sqrt_unit(a * a + b * b)) + N::ulp + N::ulp + N::ulp + N::ulp;
+    };
+    const Direction<N>& n = s.normal;
+    const Point<N> half{side(n.y, n.z), side(n.z, n.x), side(n.x, n.y)};
+    return {s.centre - half, s.centre + half};
+}
+
 } // namespace qray

@@ -166,4 +166,18 @@ constexpr Direction<N> shading_normal(const MeshTriangle<N, true>& s, const Corn
     return blended_normal(s, corners, ray, g);
 }
 
+// What takes little room keeps its normal as a rest beside that of its rounded corners: for scenes that stand still.
+template <class N, bool Smooth>
+constexpr bool move(const MeshTriangle<N, Smooth>&, const Corners<N>&, const Motion<N>&, MeshTriangle<N, Smooth>&,
+                    const MovedCorners<N>&)
+{
+    return false;
+}
+
+template <class N, bool Smooth>
+constexpr Box<N> box_of(const MeshTriangle<N, Smooth>& s, const Corners<N>& corners)
+{
+    return box_of_figure(3, [&s](uint32_t i) { return s.corner(i); }, corners);
+}
+
 } // namespace qray

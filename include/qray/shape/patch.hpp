@@ -87,4 +87,17 @@ QRAY_NOINLINE constexpr Direction<N> shading_normal(const Patch<N>& s, const Cor
     return blended_normal(s, corners, ray, g);
 }
 
+template <class N>
+constexpr bool move(const Patch<N>& from, const Corners<N>& corners, const Motion<N>& motion, Patch<N>& to,
+                    const MovedCorners<N>& moved)
+{
+    return move_figure(from, 3, [&from](uint32_t i) { return from.corner(i); }, corners, motion, to, moved);
+}
+
+template <class N>
+constexpr Box<N> box_of(const Patch<N>& s, const Corners<N>& corners)
+{
+    return box_of_figure(3, [&s](uint32_t i) { return s.corner(i); }, corners);
+}
+
 } // namespace qray

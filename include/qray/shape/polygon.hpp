@@ -77,4 +77,18 @@ QRAY_INLINE constexpr Direction<N> normal_of(const Polygon<N>& s, const Corners<
     return s.normal;
 }
 
+template <class N>
+constexpr bool move(const Polygon<N>& from, const Corners<N>& corners, const Motion<N>& motion, Polygon<N>& to,
+                    const MovedCorners<N>& moved)
+{
+    const auto corner = [&from](uint32_t i) { return from.first + i; };
+    return move_figure(from, from.count, corner, corners, motion, to, moved);
+}
+
+template <class N>
+constexpr Box<N> box_of(const Polygon<N>& s, const Corners<N>& corners)
+{
+    return box_of_figure(s.count, [&s](uint32_t i) { return s.first + i; }, corners);
+}
+
 } // namespace qray

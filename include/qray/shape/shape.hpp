@@ -11,10 +11,13 @@
 //   surface_of(shape, corners, ray, t, local, point, normal)     the point of a hit, and the outward unit normal there
 //   shading_normal(shape, corners, ray, normal)                  of a smooth one: unit, not yet turned
 //   normal_of(shape, corners)                                    of one with corners: the outward unit normal
+//   move(shape, corners, motion, moved, moved_corners)           what it is then, with all that is derived; false, and nothing
+//                                                                changes, where that leaves the world or is too small
+//   box_of(shape, corners)                                    a box that holds it, for trees
 // Near says that the ray is known not to be surely_missed(). The surface that a ray has just left is told by its tag.
 #pragma once
 
-#include "../vector/ray.hpp"
+#include "../vector/motion.hpp"
 
 namespace qray {
 
@@ -36,6 +39,54 @@ struct EnclosingCorners : Corners<N> {
 // for trees: src/scene/tree_builder.hpp shows why.
 template <class N>
 inline constexpr int32_t hit_slack = NarrowFixed<N> ? 128 : 32;
+// Where corners and normals go that are moved; null to move nothing, and ask only whether that can be.
+template <class N>
+struct MovedCorners {
+    Point<N>* points;
+    Direction<N>* normals;
+};
+
+template <class N>
+struct Box {
+    Point<N> low, high;
+
+    static constexpr Box ball(const Point<N>& centre, typename N::Length radius)
+    {
+        const Point<N> r{radius, radius, radius};
+        return {centre - r, centre + r};
+    }
+    constexpr void add(const Point<N>& a, const Point<N>& b)
+    {
+        const auto lower = [](auto u, auto v) { return u < v ? u : v; };
+        const auto higher = [](auto u, auto v) { return u < v ? v : u; };
+        low = {lower(low.x, a.x), lower(low.y, a.y), lower(low.z, a.z)};
+        high = {higher(high.x, b.x), higher(high.y, b.y), higher(high.z, b.z)};
+    }
+};
+
+// The same for a shape without corners of the scene.
+template <class N, template <class> class S>
+    requires(!S<N>::has_corners)
+constexpr bool move(const S<N>& from, const Motion<N>& motion, S<N>& to)
+{
+    return move(from, Corners<N>{}, motion, to, MovedCorners<N>{});
+}
+
+// The most bits that a shape of this size can have beyond Length's, as the builder has it: 2^fine times it, and a little
+// more, stays within most/10.
+template <class N>
+constexpr int block_scale(typename N::Length size, int32_t most)
+{
+    int fine = 0;
+    if constexpr (N::is_fixed) {
+        constexpr int frac = N::Length::frac;
+        const int64_t with_slack = int64_t{size.raw} + (1 << (frac - (NarrowFixed<N> ? 7 : 4)));
+        const int64_t limit = (int64_t{most} << frac) / 10;
+        while (fine < 10 && with_slack << (fine + 1) <= limit)
+            fine++;
+    }
+    return fine;
+}
 
 template <class N>
 struct RejectRay;
@@ -49,7 +100,8 @@ QRAY_INLINE constexpr Tag tag_of(const S& shape)
 // What forgets one of the above does not compile.
 template <class S, class N>
 concept ShapeIn = requires(const S& shape, const Corners<N>& corners, const Ray<N>& ray, const RejectRay<N>& reject,
-                           typename N::Length t, Local<N> local, Point<N> point, Direction<N> normal) {
+                           typename N::Length t, Local<N> local, Point<N> point, Direction<N> normal,
+                           const Motion<N>& motion, S& moved, const MovedCorners<N>& moved_corners) {
     requires Is<decltype(S::has_corners), const bool> && Is<decltype(S::is_curved), const bool>;
     requires Is<decltype(S::is_smooth), const bool> && Is<decltype(S::is_short), const bool>;
     { tag_of(shape) } -> Is<Tag>;
@@ -57,6 +109,8 @@ concept ShapeIn = requires(const S& shape, const Corners<N>& corners, const Ray<
     { intersect<true>(shape, corners, ray, t, t, local) } -> Is<bool>;
     { crossings<true>(shape, corners, ray, t) } -> Is<int>;
     { surface_of(shape, corners, ray, t, local, point, normal) } -> Is<void>;
+    { move(shape, corners, motion, moved, moved_corners) } -> Is<bool>;
+    { box_of(shape, corners) } -> Is<Box<N>>;
     requires !S::has_corners || requires { { normal_of(shape, corners) } -> Is<Direction<N>>; };
     requires !S::is_smooth || requires { { shading_normal(shape, corners, ray, normal) } -> Is<Direction<N>>; };
 };

@@ -132,4 +132,68 @@ QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Corners<N>&, con
     point = s.centre + coarse<N>(from_rounded(along<N>(s.radius, n), s.rounded), s.fine);
 }
 
+// With this radius, or false where that is too small for a ray to leave, or too large.
+template <class N, class Radius>
+constexpr bool set_radius(Sphere<N>& s, Radius radius_times) // radius_times(fine): times 2^fine
+{
+    using Length = typename N::Length;
+    const Length size = radius_times(0);
+    if constexpr (N::is_fixed) {
+        if (size < N::leave(N::one) || size.raw > 36700 << (Length::frac - 10)) // see q16.hpp
+            return false;
+        s.fine = block_scale<N>(size, 319);
+        s.radius = radius_times(s.fine);
+        const uint32_t r = static_cast<uint32_t>(s.radius.raw);
+        const int zeros = count_leading_zeros(r);
+        if constexpr (NarrowFixed<N>) {
+            const int shift = zeros > 17 ? zeros - 17 : 0;
+            s.inverse_radius = {divide(1, r << shift, 29), shift};
+        } else {
+            s.inverse_radius = {divide(1 << 29, r << (zeros - 1), 32), zeros - 1};
+        }
+    } else {
+        if (!(size >= Length(1) / Length(int64_t{1} << 40)))
+            return false;
+        s.radius = size;
+        s.inverse_radius = 1 / size;
+    }
+    return true;
+}
+
+template <class N>
+constexpr bool move(const Sphere<N>& from, const Corners<N>&, const Motion<N>& motion, Sphere<N>& to, const MovedCorners<N>&)
+{
+    Sphere<N> s = from;
+    s.centre = motion(from.centre);
+    if (motion.turned() || motion.scaled())
+        s.rounded = {};
+    if (!motion.valid()
+        || (motion.scaled()
+            && !set_radius(s, [&](int fine) { return motion.length(from.radius, fine - from.fine); }))
+        || !ball_in_world<N>(s.centre, N::coarse(s.radius, s.fine)))
+        return false;
+    to = s;
+    return true;
+}
+
+// The sphere that the text has as `s` with these numbers. False, and nothing changes, as with move().
+template <class N>
+constexpr bool place(Sphere<N>& sphere, const Frame<N>& frame, const ScenePoint<N>& centre, Coordinate<N> radius)
+{
+    Sphere<N> s = sphere;
+    s.centre = frame.point(centre);
+    s.rounded = {};
+    if (!set_radius(s, [&](int fine) { return frame.length(radius, fine); })
+        || !ball_in_world<N>(s.centre, N::coarse(s.radius, s.fine)))
+        return false;
+    sphere = s;
+    return true;
+}
+
+template <class N>
+constexpr Box<N> box_of(const Sphere<N>& s, const Corners<N>&)
+{
+    return Box<N>::ball(s.centre, N::coarse_above(s.radius, s.fine));
+}
+
 } // namespace qray
