@@ -1,6 +1,7 @@
 #include "options.hpp"
 
 #include "../scene/description.hpp"
+#include "../scene/moving.hpp"
 #include "../scene/reader.hpp"
 
 #include <qray/qray.hpp>
@@ -81,6 +82,23 @@ bool take_name(Options& o, const char* value)
     return length != 0 && length <= 64 && strspn(value, letters) == length && (*value < '0' || *value > '9');
 }
 
+// Six numbers, of two corners of a box.
+bool take_within(Options& o, const char* value)
+{
+    double at[6];
+    std::string_view rest = value;
+    for (int i = 0; i < 6; i++) {
+        const size_t end = rest.find(',');
+        if ((end == rest.npos) != (i == 5) || scene::read_number(rest.substr(0, end), at[i]) != scene::NumberError::none
+            || fabs(at[i]) > scene::largest_length)
+            return false;
+        rest.remove_prefix(end == rest.npos ? 0 : end + 1);
+    }
+    o.settings.within.add({at[0], at[1], at[2]});
+    o.settings.within.add({at[3], at[4], at[5]});
+    return true;
+}
+
 constexpr unsigned draw = static_cast<unsigned>(Command::draw);
 constexpr unsigned compile = static_cast<unsigned>(Command::compile);
 constexpr unsigned all = draw | compile;
@@ -103,6 +121,11 @@ constexpr Option table[] = {
      [](Options& o, const char* v) { return whole(v, 1, scene::Settings::max_depth, o.settings.depth); }},
     {"--cutoff", "W", all, "weight below which rays are not traced (default: 0.0014)", "a number from 0 to 1",
      [](Options& o, const char* v) { return share(v, o.settings.cutoff); }},
+    {"--within", "BOX", all, "where things will be: a box around the scene, for its scale (x,y,z,x,y,z)",
+     "two corners of a box, X,Y,Z,X,Y,Z", take_within},
+    {"--moving", "WHAT", compile, "tables that change, in RAM: camera, spheres,lights and so on, or all",
+     "'camera', 'all', or tables of shapes and lights, and 'mattes', with commas between",
+     [](Options& o, const char* v) { return scene::read_moving(v, o.settings.moving); }},
     {"-j", "N", draw, "threads (default: one for each processor)", "a whole number from 1 to 256",
      [](Options& o, const char* v) { return whole(v, 1, max_threads, o.threads); }},
     {"--stats", nullptr, draw, "say what was in the scene, and what drawing it took", nullptr,

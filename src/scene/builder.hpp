@@ -9,6 +9,7 @@
 
 #include "flatten.hpp"
 #include "lean.hpp"
+#include "moving.hpp"
 #include "resolution.hpp"
 #include "settings.hpp"
 #include "storage.hpp"
@@ -36,7 +37,7 @@ public:
         s.lost = {};
         images();
         fit();
-        if (!fine_enough(error))
+        if (!fine_enough(error) || !frame_of_part(error))
             return false;
         resolution.pairs(s.sorted.data);
         shapes();
@@ -113,7 +114,8 @@ public:
     bool push_lean(Array<T>& table, const Point<N>* corners, const Direction<N>* normals, const Direction<N>& g,
                    uint32_t place, uint32_t fill)
     {
-        return flat && LeanBuilder<N>{s}.push(table, corners, normals, g, place, fill);
+        const bool moves = (settings.moving & (bit_of(TableId::polygons) | bit_of(TableId::patches))) != 0;
+        return flat && !moves && LeanBuilder<N>{s}.push(table, corners, normals, g, place, fill);
     }
 
     // The number of the first of some corners, now in the scene's vertices.
@@ -183,6 +185,10 @@ private:
         Extent box;
         box.add(d.view.from);
         box.add(d.view.at);
+        if (settings.bounded()) {
+            box.add(settings.within.low);
+            box.add(settings.within.high);
+        }
         double needed = 0; // in units of what a point's coordinates may be
         bool endless = false;
         for (uint32_t i = 0; i < d.object_count; i++) {
@@ -202,16 +208,44 @@ private:
         // On a coarse lattice, so that coordinates that are round in the file stay so.
         const double step = f.scale * 64;
         f.origin = {round(f.centre.x * step) / step, round(f.centre.y * step) / step, round(f.centre.z * step) / step};
-        f.eye = resolution.eye();
+        f.eye = settings.moving == 0 ? resolution.eye() : d.view.from;
         f.pushed = scene::length(f.eye - d.view.from);
         // At most half an ulp from there, so that the eye, where all rays start, is not rounded.
-        if constexpr (WideFixed<N>) {
-            const auto moved = [&f](double origin, double eye) {
-                const double ulp = ldexp(1 / f.scale, -N::Length::frac), at = (eye - origin) / ulp;
+        if (WideFixed<N> && settings.stands()) {
+            const auto moved = [this](double origin, double eye) {
+                const double ulp = resolution.step(), at = (eye - origin) / ulp;
                 return origin + (at - rint(at)) * ulp;
             };
             f.origin = {moved(f.origin.x, f.eye.x), moved(f.origin.y, f.eye.y), moved(f.origin.z, f.eye.z)};
         }
+    }
+
+    static ScenePoint<N> place(const Vec3d& p) { return Convert<N>::template vector<ScenePoint<N>>(p); }
+
+    // The frame as a program on the part has it. Its coordinates are in steps of 2^-16.
+    bool frame_of_part([[maybe_unused]] Error& error)
+    {
+        s.moving = settings.moving;
+        if (settings.moving == 0)
+            return true;
+        if constexpr (N::is_fixed) {
+            const int exponent = -ilogb(frame.scale);
+            if (const double far = largest(frame.origin) + world / frame.scale; exponent < -10 || far >= 32768) {
+                snprintf(error.text, sizeof error.text,
+                         "a scene that moves has coordinates below 32768 in steps of 1/65536, and this one reaches %.6g "
+                         "and has a radius of %.3g; expected other units, or float",
+                         far, frame.radius);
+                return false;
+            }
+            s.frame = {place(frame.origin), exponent};
+        } else {
+            using F = typename N::Length;
+            s.frame = {place(frame.origin), static_cast<F>(frame.scale), static_cast<F>(1 / frame.scale)};
+        }
+        const double half = d.view.angle * (M_PI / 360), most = N::is_fixed ? UINT32_MAX / fmax(sin(half), cos(half)) : 1;
+        const auto part = [most](double v) { return static_cast<decltype(s.text_view.field.sine)>(v * most); };
+        s.text_view = {place(d.view.from), place(d.view.at), place(unit(d.view.up)), {part(sin(half)), part(cos(half))}};
+        return true;
     }
 
     // What is smooth first: a corner's shading normal has the number of the corner, and other figures need none.
@@ -287,7 +321,7 @@ private:
             }
             if constexpr (is_float) // what is not 0 from there to a surface has a square that float holds
                 at = {off_zero(at.x), off_zero(at.y), off_zero(at.z)};
-            if (shift == 0)
+            if (shift == 0 && !moves_tables())
                 resolution.light_surfaces(l.at, keep_light_surface(s.lights.count));
             s.lights.push() = {Convert<N>::point(at), shift, colour(l.colour)};
         }
@@ -297,6 +331,8 @@ private:
                  most_light_surfaces());
         return false;
     }
+    // Which surface a lamp lies on is known of one place alone.
+    bool moves_tables() const { return (settings.moving & ~camera_moves) != 0; }
     uint32_t most_light_surfaces() const { return d.light_count * Limits::light_surfaces; }
     // Counts one more than there may be, too. `light` is as LightSurface has it.
     auto keep_light_surface(uint32_t light)
@@ -324,7 +360,7 @@ private:
             s.suns.push() = {Convert<N>::direction(unit(at)), colour(l.colour)};
             return true;
         }
-        if (shift == 0)
+        if (shift == 0 && !moves_tables())
             resolution.panel_surfaces(l, keep_light_surface(~number));
         const auto fine = [shift = shift](const Vec3d& p) {
             return Convert<N>::point(p * ldexp(1, Panel<N>::fine - shift));
@@ -613,7 +649,7 @@ private:
     {
         uint32_t fill = 0;
         Vec3d outward;
-        const int64_t at = resolution.eye_surface(fill, outward);
+        const int64_t at = settings.moving == 0 ? resolution.eye_surface(fill, outward) : -1;
         s.eye_surface = {{Tag::none}, {}};
         if (at >= 0)
             s.eye_surface = {make_tag(static_cast<uint32_t>(at), fill), Convert<N>::direction(outward)};

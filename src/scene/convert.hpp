@@ -17,11 +17,25 @@ struct Convert {
     {
         return F{static_cast<int32_t>(llrint(ldexp(v, F::frac)))};
     }
+    template <class F>
+    static F number(double v)
+    {
+        if constexpr (N::is_fixed)
+            return fixed<F>(v);
+        else
+            return static_cast<F>(v);
+    }
     static typename N::Length length(double v) { return number<typename N::Length>(v); }
     static typename N::Unit unit(double v) { return number<typename N::Unit>(v); }
     static typename N::Colour colour(double v) { return number<typename N::Colour>(v); }
     static typename N::Eta eta(double v) { return number<typename N::Eta>(v); }
     static Point<N> point(const Vec3d& p) { return {length(p.x), length(p.y), length(p.z)}; }
+    template <class V>
+    static V vector(const Vec3d& v)
+    {
+        using T = decltype(V::x);
+        return {number<T>(v.x), number<T>(v.y), number<T>(v.z)};
+    }
     static Direction<N> direction(const Vec3d& d) { return {unit(d.x), unit(d.y), unit(d.z)}; }
     // p less its rounding, in units of 2^-fine ulp.
     static Rounded<N> rounded([[maybe_unused]] const Vec3d& p, [[maybe_unused]] int fine)
@@ -129,16 +143,6 @@ struct Convert {
         else
             return {static_cast<typename N::Unit>(d.x), static_cast<typename N::Unit>(d.y),
                     static_cast<typename N::Unit>(d.z)};
-    }
-
-private:
-    template <class F>
-    static F number(double v)
-    {
-        if constexpr (N::is_fixed)
-            return fixed<F>(v);
-        else
-            return static_cast<F>(v);
     }
 };
 

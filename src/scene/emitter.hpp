@@ -3,11 +3,13 @@
 #pragma once
 
 #include <concepts>
+#include <iterator>
 #include <string_view>
 #include <type_traits>
 
 #include "effect_names.hpp"
 #include "members.hpp"
+#include "moving.hpp"
 #include "source.hpp"
 #include "storage.hpp"
 
@@ -71,6 +73,7 @@ public:
     {
         e.tree = false;
         e.flat_tree = s.entries.count != 0;
+        e.moving = s.moving != 0;
     }
 
     // `title` may be empty; `origin` says what the header was made from; `name` is of the namespace.
@@ -123,18 +126,43 @@ private:
         out.print("\ninline constexpr uint32_t width = %u, height = %u;\n", unsigned{s.camera.width},
                   unsigned{s.camera.height});
         effects();
+        if (e.moving) {
+            out.put("\n// Scene units to Number's and back.\ninline constexpr qray::Frame<Number> frame = ");
+            value(s.frame);
+            out.put(";\n// Of the text, in scene units: eye; where it looks; up; sine and cosine of half the field.\n"
+                    "inline constexpr qray::View<Number> view = ");
+            value(s.text_view);
+            out.put(";\ninline constinit qray::Camera<Number> camera{\n");
+            camera("    ");
+            out.put("};\n");
+        }
         for_each_table(s, e, [this](const auto& array, const char* type, const char* name) {
-            out.print("\n// %s\ninline constexpr qray::%s<Number> %s[] = {\n", fields_of(name), type, name);
+            const unsigned count = array.count;
+            if (moves(name))
+                out.print("\n// At first: %s\ninline constexpr qray::MovingTable<qray::%s<Number>, %u> first_%s = {{\n",
+                          fields_of(name), type, count, name);
+            else
+                out.print("\n// %s\ninline constexpr qray::%s<Number> %s[] = {\n", fields_of(name), type, name);
             constexpr uint32_t in_line = sizeof array.data[0] <= 2 ? 24 : 1;
             for (uint32_t i = 0; i < array.count; i++) {
                 out.put(i % in_line == 0 ? "    " : " ");
                 value(array.data[i]);
                 out.put((i + 1) % in_line == 0 || i + 1 == array.count ? ",\n" : ",");
             }
-            out.put("};\n");
+            if (moves(name))
+                out.print("}};\ninline constinit qray::MovingTable<qray::%s<Number>, %u> %s = first_%s;\n", type, count, name,
+                          name);
+            else
+                out.put("};\n");
         });
         out.put("\ninline constexpr qray::Scene<Number, effects> scene{\n");
-        camera();
+        if (e.moving) {
+            out.put("    .camera = camera,\n");
+        } else {
+            out.put("    .camera = {\n");
+            camera("        ");
+            out.put("    },\n");
+        }
         if (e.eye_surface)
             member("eye_surface", Single<EyeSurface<N>>{s.eye_surface});
         member("background", s.background);
@@ -150,9 +178,13 @@ private:
             member("threshold", Single<typename N::Unit>{s.threshold});
         }
         for_each_table(s, e, [this](const auto& array, const char*, const char* name) {
-            out.print("    .%s = {%s, %u},\n", name, name, static_cast<unsigned>(array.count));
+            const char* const data = moves(name) ? ".data" : "";
+            out.print("    .%s = {%s%s, %u},\n", name, name, data, static_cast<unsigned>(array.count));
         });
         out.put("};\n");
+        if (moves("entries"))
+            out.print("\n// After shapes have moved, before a picture.\ninline void refit() {%s}\n",
+                      e.flat_tree ? " qray::refit(scene, entries.data); " : "");
     }
 
     static constexpr const char* number_name()
@@ -169,15 +201,22 @@ private:
         for (const EffectName& name : effect_names)
             if (e.*name.effect)
                 out.print("    .%s = true,\n", name.name);
-        out.print("    .depth = %u,\n};\n", unsigned{e.depth});
+        out.print("    .depth = %u,\n%s};\n", unsigned{e.depth}, e.moving ? "    .moving = true,\n" : "");
     }
 
-    void camera()
+    bool moves(std::string_view table) const
+    {
+        for (uint32_t i = 0; i < std::size(table_names); i++)
+            if (table == table_names[i])
+                return (s.moving >> i & 1) != 0;
+        return false;
+    }
+
+    void camera(const char* indent)
     {
         const auto& [eye, centre, right, down, width, height, grid] = s.camera;
-        out.put("    .camera = {\n");
-        const auto field = [this](const char* name, const auto& v) {
-            out.print("        .%s = ", name);
+        const auto field = [this, indent](const char* name, const auto& v) {
+            out.print("%s.%s = ", indent, name);
             value(v);
             out.put(",\n");
         };
@@ -185,9 +224,8 @@ private:
         field("centre", centre);
         field("right", right);
         field("down", down);
-        out.put("        .width = width,\n        .height = height,\n");
+        out.print("%s.width = width,\n%s.height = height,\n", indent, indent);
         field("grid", grid);
-        out.put("    },\n");
     }
 
     template <class T>

@@ -3,6 +3,8 @@
 
 #include <stdint.h>
 
+#include "vec3d.hpp"
+
 namespace qray::scene {
 
 struct Settings {
@@ -13,6 +15,10 @@ struct Settings {
     uint32_t levels = 0; // of adaptive sampling; 0: none
     double threshold = 1.0 / 16;
     bool compiled = false; // for a header: a tree that boards can read, and triangles in little room
+    uint32_t moving = 0; // tables of a header that can be changed; see moving.hpp
+    Extent within{};     // where things will be, beside where they are; empty if nothing was said
+    bool bounded() const { return within.low.x <= within.high.x; }
+    bool stands() const { return moving == 0 && !bounded(); }
     static constexpr uint32_t max_depth = 64;
     static constexpr uint32_t max_grid = 64;
     static constexpr uint32_t max_levels = 6;

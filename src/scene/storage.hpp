@@ -2,6 +2,7 @@
 // They lie in the caller's memory, as long as the description can make them.
 #pragma once
 
+#include <qray/scene/look_at.hpp>
 #include <qray/scene/scene.hpp>
 
 #include "settings.hpp"
@@ -39,6 +40,9 @@ struct Storage {
     Effects effects;
     Camera<N> camera;
     EyeSurface<N> eye_surface; // Tag::none: on no surface
+    qray::Frame<N> frame;      // of a scene that moves,
+    qray::View<N> text_view;   // and its view
+    uint32_t moving;           // as Settings
     Rgb<N> background;
     int32_t exposure;
     uint8_t max_depth;

@@ -39,6 +39,7 @@ struct EnclosingCorners : Corners<N> {
 // for trees: src/scene/tree_builder.hpp shows why.
 template <class N>
 inline constexpr int32_t hit_slack = NarrowFixed<N> ? 128 : 32;
+
 // Where corners and normals go that are moved; null to move nothing, and ask only whether that can be.
 template <class N>
 struct MovedCorners {
