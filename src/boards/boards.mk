@@ -8,7 +8,8 @@
 FW_SRC    := src/boards
 FW_BOARDS := $(patsubst $(FW_SRC)/%/board.mk,%,$(wildcard $(FW_SRC)/*/board.mk))
 FW_OPTIONS = $(if $(NUMBER),-n $(NUMBER)) $(if $(SIZE),-s $(SIZE)) $(if $(SAMPLES),-r $(SAMPLES)) \
-    $(if $(ADAPTIVE),-a $(ADAPTIVE)) $(if $(DEPTH),-d $(DEPTH)) $(if $(CUTOFF),--cutoff $(CUTOFF))
+    $(if $(ADAPTIVE),-a $(ADAPTIVE)) $(if $(DEPTH),-d $(DEPTH)) $(if $(CUTOFF),--cutoff $(CUTOFF)) \
+    $(if $(WITHIN),--within $(WITHIN))
 # Shells may have variables of these names: Zephyr's a BOARD, WSL's a NAME.
 ifeq ($(origin NAME),environment)
 undefine NAME
@@ -24,7 +25,7 @@ endif
 include $(FW_SRC)/$(BOARD)/board.mk
 
 NUMBER  ?= $(if $(SCENE),q32,float)
-NAME    ?= $(if $(SCENE),$(basename $(notdir $(SCENE))),card)
+NAME    ?= $(if $(SCENE),$(basename $(notdir $(SCENE)))$(ANIMATION:%=-%),card)
 OUTPUT  ?= semihosting
 
 # What is wrong, each in one line. Names are of letters that neither make nor a shell takes for anything else.
@@ -58,10 +59,11 @@ endif
 FW_STEM := build/$(BOARD)/$(NAME)-$(NUMBER)
 FW_ELF  := $(FW_STEM)$(if $(filter uart,$(OUTPUT)),-uart).elf
 FW_OBJ  := $(FW_ELF:.elf=.obj)
-FW_MAIN ?= src/firmware/main.cpp
+FW_MAIN ?= src/firmware/$(if $(ANIMATION),frames,main).cpp
 FW_INCLUDE ?= include
 
-FW_DEFINES  := $(if $(SCENE),-DQRAY_SCENE_HEADER='"$(notdir $(FW_STEM)).hpp"',\
+FW_COMPILE  := $(FW_OPTIONS) $(if $(ANIMATION),--moving $(FR_MOVES))
+FW_DEFINES  := $(FR_DEFINES) $(if $(SCENE),-DQRAY_SCENE_HEADER='"$(notdir $(FW_STEM)).hpp"',\
     $(if $(SIZE),-DQRAY_WIDTH=$(word 1,$(FW_SIZE)) -DQRAY_HEIGHT=$(word 2,$(FW_SIZE))))
 FW_FLAGS    := -std=c++20 $(BOARD_CPU) $(BOARD_OPTIMISE) -g $(WARNINGS) \
     -I$(FW_INCLUDE) -Isrc -Ibuild/$(BOARD) -ffreestanding \
@@ -79,7 +81,7 @@ FW_COUNT  := build/qray $(SCENE) $(FW_OPTIONS) -q --stats -o /dev/null 2>&1 | se
 FW_REPORT  = python3 $(FW_SRC)/common/run.py --tools $(BOARD_TOOLS) --tick $(BOARD_TICK) $(if $(UNBOUNDED),--unbounded) $(FW_ELF)
 
 # What the outputs were made with: a change of options remakes them.
-FW_CONFIG := $(SCENE) $(FW_OPTIONS) $(FW_DEFINES) $(FW_FLAGS) $(FW_MAIN)
+FW_CONFIG := $(SCENE) $(FW_COMPILE) $(FW_DEFINES) $(FW_FLAGS) $(FW_MAIN)
 $(FW_OBJ)/config: FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' '$(subst ','\'',$(FW_CONFIG))' | cmp -s - $@ || \
@@ -87,7 +89,7 @@ $(FW_OBJ)/config: FORCE
 
 ifneq ($(SCENE),)
 $(FW_STEM).hpp: $(SCENE) $(wildcard $(addprefix $(dir $(SCENE))*.,bmp ppm obj)) build/qray $(FW_OBJ)/config
-	@build/qray compile $(SCENE) $(FW_OPTIONS) -o $@
+	@build/qray compile $(SCENE) $(FW_COMPILE) -o $@
 $(FW_OBJ)/main.o: $(FW_STEM).hpp
 endif
 
@@ -110,7 +112,8 @@ $(FW_ELF:.elf=.hex): $(FW_ELF)
 
 run: $(FW_ELF) $(if $(filter uart,$(OUTPUT)),$(FW_ELF:.elf=.hex)) | firmware-qemu
 	@$(FW_REPORT) --qemu '$(BOARD_QEMU)' --picture $(FW_STEM).ppm \
-	    $(if $(filter uart,$(OUTPUT)),--uart,$(if $(SCENE),--rays $$($(FW_COUNT))))
+	    $(if $(ANIMATION),--frames $(FRAMES)) \
+	    $(if $(filter uart,$(OUTPUT)),--uart,$(if $(SCENE),$(if $(ANIMATION),,--rays $$($(FW_COUNT)))))
 size: $(FW_ELF)
 	@$(FW_REPORT)
 describe:

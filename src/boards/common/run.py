@@ -23,6 +23,9 @@ def fail(text):
     raise SystemExit(f"run: {text}")
 
 
+frames = 1  # pictures, one behind another
+
+
 def parts_of(path):
     """(bytes, bytes of the whole, pixels) of a binary PPM that may still grow."""
     if not os.path.exists(path):
@@ -30,7 +33,7 @@ def parts_of(path):
     with open(path, "rb") as file:
         head = re.match(rb"P6\n(\d+) (\d+)\n255\n", file.read(40))
     pixels = int(head[1]) * int(head[2]) if head else 0
-    return os.path.getsize(path), head.end() + 3 * pixels if head else math.inf, pixels
+    return os.path.getsize(path), frames * (head.end() + 3 * pixels) if head else math.inf, frames * pixels
 
 
 class Progress:
@@ -118,10 +121,13 @@ def main():
     parser.add_argument("--qemu")
     parser.add_argument("--picture")
     parser.add_argument("--rays", type=int)
+    parser.add_argument("--frames", type=int, default=1)
     parser.add_argument("--uart", action="store_true")
     parser.add_argument("--unbounded", action="store_true", help="run even if the stack has no bound")
     parser.add_argument("--seconds", type=float, default=600)
     args = parser.parse_args()
+    global frames
+    frames = args.frames
 
     image = elf_file.Elf(args.image)
     sizes = image.sizes()
@@ -156,6 +162,8 @@ def main():
         if "ticks" in values:
             instructions = values["ticks"] * args.tick
             report["instructions"] = round(instructions)
+            if frames > 1:
+                report["instructions/frame"] = round(instructions / frames)
             report["instructions/pixel"] = f"{instructions / pixels:.1f}"
             if args.rays:
                 report["instructions/ray"] = f"{instructions / args.rays:.1f}"

@@ -1,0 +1,94 @@
+"""Animations on the boards: the desktop's bytes, frame by frame. From the top of the repository:
+python3 tests/firmware/test_frames.py; with --all, twenty frames of all of them on every board that counts."""
+
+import math
+import os
+import subprocess
+import sys
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, "tests/firmware")
+from test_boards import make  # noqa: E402
+
+ALL = "--all" in sys.argv
+FRAMES = 20 if ALL else 3
+SCENE = "build/frames_test/moves.nff"
+WITHIN = "-7,-1,-7,7,7,7"
+ANIMATIONS = ["orbit", "ball", "tumble", "mesh"]
+BOARDS = ["microbit", "mps2_an385", "mps2_an386", "rv32_virt"]
+NUMBERS = ["q16", "q32", "float"]
+
+
+def scene():
+    """A ball, a cone, a polygon and a mesh with a tree, lit by one lamp."""
+    lines = ["v", "from 0 3 6", "at 0 1 0", "up 0 1 0", "angle 50", "hither 0", "resolution 24 18", "b 0.3 0.4 0.6", "l 3 6 4",
+             "f 0.8 0.8 0.8 0.8 0 0 0 1", "plane 0 0 0 0 1 0", "f 0.9 0.2 0.2 0.7 0.5 9 0 1", "s -2 1 0 0.75",
+             "f 0.2 0.8 0.3 0.8 0 0 0 1", "c 2 0.5 1 0.5 2 2 1 0.25", "p 4 -1 2 -2 1 2 -2 1 4 -2 -1 4 -2", "f 0.3 0.4 0.9 0.8 0 0 0 1"]
+    # A ball of 2 x 12 + 24 triangles.
+    def at(ring, k):
+        polar, around = math.pi * ring / 4, 2 * math.pi * k / 12
+        n = (math.sin(polar) * math.cos(around), math.cos(polar), math.sin(polar) * math.sin(around))
+        return " ".join(f"{v:.4f}" for v in (1.5 * n[0], 1 + 0.75 * n[1], 2 + 0.75 * n[2]) + n)
+    for ring in range(4):
+        for k in range(12):
+            if ring < 3:
+                lines.append(f"pp 3 {at(ring, k)} {at(ring + 1, k)} {at(ring + 1, k + 1)}")
+            if 0 < ring < 3 and k % 2:
+                lines.append(f"pp 3 {at(ring, k)} {at(ring + 1, k + 1)} {at(ring, k + 1)}")
+    return "\n".join(lines) + "\n"
+
+
+def contents(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+class Frames(unittest.TestCase):
+    def drawn(self, *arguments):
+        status, text = make(*arguments, f"SCENE={SCENE}", f"WITHIN={WITHIN}", f"FRAMES={FRAMES}")
+        self.assertEqual(status, 0, text)
+
+    def test_boards_draw_the_desktops_frames(self):
+        os.makedirs(os.path.dirname(SCENE), exist_ok=True)
+        with open(SCENE, "w") as file:
+            file.write(scene())
+        for k, animation in enumerate(ANIMATIONS):
+            for number in NUMBERS if ALL else [NUMBERS[k % 3]]:
+                boards = BOARDS if ALL else [BOARDS[k]]
+                self.drawn("frames", f"ANIMATION={animation}", f"NUMBER={number}")
+                expected = contents(f"build/frames/moves-{animation}-{number}.ppm")
+                size = len(expected) // FRAMES
+                self.assertEqual(len({expected[i * size:(i + 1) * size] for i in range(FRAMES)}), FRAMES)
+                for board in boards:
+                    with self.subTest(animation=animation, number=number, board=board):
+                        self.drawn("run", f"BOARD={board}", f"ANIMATION={animation}", f"NUMBER={number}")
+                        self.assertEqual(contents(f"build/{board}/moves-{animation}-{number}.ppm"), expected)
+
+    # A frame is the desktop's picture of the text with that frame's numbers.
+    def test_frames_are_those_of_the_text(self):
+        os.makedirs(os.path.dirname(SCENE), exist_ok=True)
+        with open(SCENE, "w") as file:
+            file.write(scene())
+        # Half way, the ball is as high as it is wide, and the lamp as far on its other side.
+        text = scene().replace("s -2 1 0 0.75", "s -2 2.5 0 0.75").replace("l 3 6 4", "l -7 6 -4")
+        with open("build/frames_test/half.nff", "w") as file:
+            file.write(text)
+        status, said = make("frames", f"SCENE={SCENE}", f"WITHIN={WITHIN}", "FRAMES=2", "ANIMATION=ball")
+        self.assertEqual(status, 0, said)
+        run = ["build/qray", "build/frames_test/half.nff", "-q", "--within", WITHIN, "-o", "build/frames_test/half.ppm"]
+        self.assertEqual(subprocess.run(run).returncode, 0)
+        half = contents("build/frames_test/half.ppm")
+        self.assertEqual(contents("build/frames/moves-ball-q32.ppm")[-len(half):], half)
+
+    def test_what_cannot_be(self):
+        status, text = make("frames", f"SCENE={SCENE}", "ANIMATION=none")
+        self.assertNotEqual(status, 0)
+        self.assertIn("there is no animation none", text)
+        status, text = make("frames")
+        self.assertNotEqual(status, 0)
+        self.assertIn("usage", text)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[a for a in sys.argv if a != "--all"])
