@@ -4,6 +4,12 @@
 //
 // Boxes are seen by a ProjectedRay, whose header says how far a line may be beside the ray: 4.7 and s steps. A box is
 // wider than what is in it by 8: the 3 that are left take in the rounding of the box, and x where it is cut off.
+//
+// So a ray that passes a leaf's box is near to the corners of what is in it. Rounding makes the box wider, or cuts it off
+// at 64, where no corner is: a corner c, cut off to whole steps, is inside by 7 along each axis. The part of the box that
+// was asked has a middle x and a half p, and lies in the box but for 1 that x is rounded by; x is therefore at most
+// 2 half_x - p - 6 from c. There the line was at most half_y + s p from the box's middle, and this is at most half_y - 7
+// from c: with s <= 1, c is at most 2 half_y + 2 half_x - 13 beside it, and that is rounded up by 1.
 #pragma once
 
 #include "../shape/projected_ray.hpp"
@@ -86,6 +92,8 @@ QRAY_INLINE constexpr void walk(const TreeEntry<N>* e, ProjectedRay& ray, Limit 
         e = next_leaf(ray, e);
         if (e->link == Entry::last)
             return;
+        const int32_t along = ray.axis == 0 ? e->half_x : ray.axis == 1 ? e->half_y : e->half_z;
+        ray.within = 2 * (along + e->half_x + e->half_y + e->half_z);
         for (uint32_t i = e->first(), end = i + e->count(); i < end; i++)
             if (visit(e->kind(), i))
                 return;

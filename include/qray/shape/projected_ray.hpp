@@ -31,10 +31,12 @@ public:
     };
     Line y, z;
     int32_t low, high; // x from the origin to the limit, and some steps more
+    int32_t within;    // how far from both lines together a corner is at most that misses() is asked about
     int axis;          // 0, 1, 2; y and z are the other two in order
 
     template <class N>
-    QRAY_INLINE constexpr explicit ProjectedRay(const Ray<N>& ray) : y{}, z{}, low(0), high(0), axis(0), x(0), along(0)
+    QRAY_INLINE constexpr explicit ProjectedRay(const Ray<N>& ray)
+        : y{}, z{}, low(0), high(0), within(0), axis(0), x(0), along(0)
     {
         const auto& [o, d, from, outward] = ray;
         const int32_t dx = steps<16>(d.x), dy = steps<16>(d.y), dz = steps<16>(d.z);
@@ -69,18 +71,16 @@ public:
     template <class N>
     QRAY_NOINLINE constexpr bool misses(const Point<N>& a, const Point<N>& b, const Point<N>& c) const
     {
+        if (within >> 15 != 0)
+            return false;
         int32_t ua{}, va{}, ub{}, vb{}, uc{}, vc{};
         see<N>(a, ua, va);
         see<N>(b, ub, vb);
         see<N>(c, uc, vc);
-        const auto size = [](int32_t v) { return v ^ v >> 31; };
-        const int32_t most = size(ua) | size(va) | size(ub) | size(vb) | size(uc) | size(vc);
-        if (most >> 15 != 0)
-            return false;
-        // Twice the areas that the line makes with each edge; a number is wrong by less than 8 (4.7, 2 for x and 1 for
-        // what is cut off here), so that these are by less than 32 times the largest and 128.
+        // Twice the areas that the line makes with each edge. A number is wrong by less than 8 (4.7, 2 for x and 1 for
+        // what is cut off here), so that these are by less than 8 times four numbers, two of a corner, and 128.
         const int32_t ab = ua * vb - va * ub, bc = ub * vc - vb * uc, ca = uc * va - vc * ua;
-        const int32_t tolerance = 32 * most + 128;
+        const int32_t tolerance = 16 * within + 128;
         return (ab > tolerance || bc > tolerance || ca > tolerance)
             && (ab < -tolerance || bc < -tolerance || ca < -tolerance);
     }
