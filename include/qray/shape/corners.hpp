@@ -1,4 +1,4 @@
-// Where a ray meets a planar figure with corners: for polygons and patches.
+// Where a ray meets a planar figure with corners: for polygons, patches and triangles.
 //
 // Inside or outside is decided by crossing parity in the ray's own frame: each corner is sheared once so that the
 // ray runs along the dominant axis of its direction (after Woop, Benthin, Wald, Watertight Ray/Triangle Intersection,
@@ -10,8 +10,21 @@
 
 #include "plane.hpp"
 #include "projected_ray.hpp"
+#include "reject.hpp"
 
 namespace qray {
+
+// Where the corners of a figure are in the scene's points, or normals: those behind the second are in a row.
+template <class P>
+struct Figure {
+    const P *first, *second, *others;
+    uint32_t count;
+
+    QRAY_INLINE constexpr const P& operator[](uint32_t i) const
+    {
+        return i == 0 ? *first : i == 1 ? *second : others[i - 2];
+    }
+};
 
 // A point in the plane across the ray.
 template <class N>
@@ -139,53 +152,46 @@ QRAY_INLINE constexpr bool crosses(const Sheared<N>& a, const Sheared<N>& b, [[m
 
 // The distance to the plane of a surface that the ray is known to pass through. Where the plane is seen almost
 // edge on its equation says little; the corners' own distances then bound it.
-template <class N, class Corner>
-QRAY_NOINLINE constexpr bool plane_distance(const Direction<N>& normal, uint32_t count, const Corner& corner,
+template <class N>
+QRAY_NOINLINE constexpr bool plane_distance(const Direction<N>& normal, const Figure<Point<N>>& figure,
                                             const Ray<N>& ray, typename N::Length limit, typename N::Length& t)
 {
     typename N::Length near = N::length_max, far = -N::length_max;
-    for (uint32_t i = 0; i < count; i++) {
-        const auto depth = N::length(dot<N>(corner(i), ray.direction));
+    for (uint32_t i = 0; i < figure.count; i++) {
+        const auto depth = N::length(dot<N>(figure[i] - ray.origin, ray.direction));
         if (depth < near)
             near = depth;
         if (depth > far)
             far = depth;
     }
-    if (!N::quotient(dot<N>(corner(0), normal), dot<N>(ray.direction, normal), 0, t) || t < near)
+    if (!N::quotient(dot<N>(*figure.first - ray.origin, normal), dot<N>(ray.direction, normal), 0, t) || t < near)
         t = near;
     if (t > far)
         t = far;
     return t > N::length_zero && t <= limit;
 }
 
-// Does the ray's line pass inside of the outline? Corners are given relative to the ray's origin by corner(i).
-template <class N, class Corner>
-QRAY_NOINLINE constexpr bool encloses(uint32_t count, const Corner& corner, const Direction<N>& d)
+// Does the ray's line pass inside of the outline?
+template <class N>
+QRAY_NOINLINE constexpr bool encloses(const Figure<Point<N>>& figure, const Ray<N>& ray)
 {
-    const Shear<N> shear(d);
+    const Shear<N> shear(ray.direction);
+    const Point<N> *from = figure.first, *to = figure.second, *next = figure.others;
+    Sheared<N> a = shear.below(*from - ray.origin);
     bool inside = false;
-    uint32_t last = count - 1;
-    Sheared<N> a = shear.below(corner(last));
-    for (uint32_t i = 0; i < count; i++) {
-        const Sheared<N> b = shear.below(corner(i));
+    for (uint32_t left = figure.count;;) {
+        const Sheared<N> b = shear.below(*to - ray.origin);
         const auto sign = [&] {
             if constexpr (Shear<N>::is_wide_fixed)
-                return shear.edge_sign(corner(last), corner(i));
+                return shear.edge_sign(*from - ray.origin, *to - ray.origin);
         };
         inside = inside != crosses<N>(a, b, sign);
+        if (--left == 0)
+            return inside;
         a = b;
-        last = i;
+        from = to;
+        to = left == 1 ? figure.first : next++;
     }
-    return inside;
-}
-
-// Is the ray's line surely beside a figure of three or four corners?
-template <class N, class Point_of>
-QRAY_INLINE constexpr bool surely_beside(uint32_t count, Point_of point, const ProjectedRay& ray)
-{
-    // Where it passes inside of one, it passes inside of an odd number of the triangles that it is fanned into.
-    return count <= 4 && ray.misses<N>(point(0), point(1), point(2))
-        && (count == 3 || ray.misses<N>(point(0), point(2), point(3)));
 }
 
 // Where the ray meets the plane through c; 0 where that is seen almost edge on, and says too little. False where it is
@@ -199,90 +205,160 @@ QRAY_NOINLINE constexpr bool meets_plane(const Direction<N>& normal, const Point
     return N::nearly_zero(den) || intersect_plane<N>(dot<N>(c - ray.origin, normal), den, limit, t);
 }
 
-// Enclosed: the ray is known to pass inside. The steps are functions, so that they take the same stack in turn.
-template <bool Enclosed, class N, class Corner>
-QRAY_INLINE constexpr bool intersect_corners(const Direction<N>& normal, uint32_t count, const Point<N>& first,
-                                             const Corner& corner, const Ray<N>& ray, typename N::Length limit,
-                                             typename N::Length& t)
+// What shape.hpp asks, of all shapes with corners. Such a shape says where they are, figure(points), and whether it is
+// lean: it has no ball, and its normal costs more than all else and so comes last.
+template <class S>
+concept HasCorners = S::has_corners;
+
+template <HasCorners S, class N>
+QRAY_INLINE constexpr Direction<N> normal_of(const S& s, const Corners<N>&)
 {
-    if (!meets_plane<N>(normal, first, ray, limit, t))
+    return s.normal;
+}
+
+template <HasCorners S, class N>
+QRAY_INLINE constexpr bool surely_missed(const S& s, const RejectRay<N>& ray)
+{
+    if constexpr (S::is_lean)
+        return false;
+    else
+        return ray.misses_ball(s.middle, s.bound);
+}
+
+// Only one of three or four corners.
+template <HasCorners S, class N>
+QRAY_INLINE constexpr bool surely_missed(const S& s, const Corners<N>& corners, const ProjectedRay& ray)
+{
+    const auto [a, b, others, count] = s.figure(corners.points);
+    // Where it passes inside of one, it passes inside of an odd number of the triangles that it is fanned into.
+    return count <= 4 && ray.misses<N>(*a, *b, others[0]) && (count == 3 || ray.misses<N>(*a, others[0], others[1]));
+}
+
+template <HasCorners S, class N>
+QRAY_NOINLINE constexpr bool encloses(const S& s, const Point<N>* points, const Ray<N>& ray)
+{
+    return encloses(s.figure(points), ray);
+}
+
+// t in (0, limit], or false; also where that is a crossing at the light that stands at `limit`. Enclosed: the ray is known
+// to pass inside. The steps are functions, so that they take the same stack in turn.
+template <bool Enclosed, HasCorners S, class N>
+QRAY_NOINLINE constexpr bool meets(const S& s, const Point<N>* points, const Ray<N>& ray, typename N::Length limit,
+                                   typename N::Length& t, bool to_light)
+{
+    const auto& normal = normal_of(s, Corners<N>{points, nullptr});
+    if (!meets_plane<N>(normal, *s.figure(points).first, ray, limit, t))
         return false;
     if constexpr (!Enclosed)
-        if (!encloses<N>(count, corner, ray.direction))
+        if (!encloses(s.figure(points), ray))
             return false;
     // A rounded normal may put the plane beside the corners.
-    if constexpr (!NarrowFixed<N>)
-        if (t > N::length_zero)
-            return true;
-    return plane_distance<N>(normal, count, corner, ray, limit, t);
+    if ((NarrowFixed<N> || !(t > N::length_zero)) && !plane_distance<N>(normal, s.figure(points), ray, limit, t))
+        return false;
+    return !to_light || before_light<N>(normal, ray, t, limit);
+}
+
+// The figure that the ray starts on does not count.
+template <HasCorners S, class N, class C>
+QRAY_INLINE constexpr bool meets(const S& s, const C& corners, const Ray<N>& ray, typename N::Length limit,
+                                 typename N::Length& t, bool to_light)
+{
+    return !(ray.from == tag_of(s)) && (!S::is_lean || encloses(s, corners.points, ray))
+        && meets<S::is_lean || C::enclose>(s, corners.points, ray, limit, t, to_light);
+}
+
+template <bool Near = false, HasCorners S, class N, class C>
+QRAY_INLINE constexpr bool intersect(const S& s, const C& corners, const Ray<N>& ray, typename N::Length limit,
+                                     typename N::Length& t, Local<N>&)
+{
+    return meets(s, corners, ray, limit, t, false);
+}
+
+// How often the ray crosses it strictly between its origin and a light at `distance`: 0 or 1.
+template <bool Near = false, HasCorners S, class N, class C>
+QRAY_INLINE constexpr int crossings(const S& s, const C& corners, const Ray<N>& ray, typename N::Length distance)
+{
+    typename N::Length t{};
+    return meets(s, corners, ray, distance, t, true);
+}
+
+template <HasCorners S, class N>
+QRAY_INLINE constexpr void surface_of(const S& s, const Corners<N>& corners, const Ray<N>& ray, typename N::Length t,
+                                      const Local<N>&, Point<N>& point, Direction<N>& n)
+{
+    n = normal_of(s, corners);
+    const Point<N> hit = S::is_smooth ? ray.origin + along<N>(t, ray.direction) : in_world(ray, t);
+    point = on_plane<N>(*s.figure(corners.points).first, n, hit);
 }
 
 // The barycentric weights of where the ray passes a triangle with these corners, or false. By itself, so that its stack
 // is free again where the blend is made unit.
 template <class N>
-QRAY_NOINLINE constexpr bool corner_weights(const Point<N>& a, const Point<N>& b, const Point<N>& c, const Ray<N>& ray,
-                                            typename N::Unit (&w)[3])
+QRAY_NOINLINE constexpr bool corner_weights(const Figure<Point<N>>& figure, const Ray<N>& ray, typename N::Unit (&w)[3])
 {
     const Shear<N> shear(ray.direction);
-    const Sheared<N> at = shear(a - ray.origin), bt = shear(b - ray.origin), ct = shear(c - ray.origin);
-    return N::weights(edge<N>(bt, ct), edge<N>(ct, at), edge<N>(at, bt), w[0], w[1], w[2]);
+    const Sheared<N> a = shear(*figure.first - ray.origin), b = shear(*figure.second - ray.origin),
+                     c = shear(*figure.others - ray.origin);
+    return N::weights(edge<N>(b, c), edge<N>(c, a), edge<N>(a, b), w[0], w[1], w[2]);
 }
 
-// The blend of a triangle's corner normals where the ray meets it: unit, not yet turned; g where it vanishes.
-template <class N, class S>
-QRAY_INLINE constexpr Direction<N> blended_normal(const S& s, const Corners<N>& corners, const Ray<N>& ray,
-                                                  const Direction<N>& g)
+// The blend of a triangle's corner normals where the ray meets it; g where that vanishes.
+template <HasCorners S, class N>
+    requires S::is_smooth
+QRAY_NOINLINE constexpr Direction<N> shading_normal(const S& s, const Corners<N>& corners, const Ray<N>& ray,
+                                                    const Direction<N>& g)
 {
-    const auto& [vertices, normals] = corners;
     typename N::Unit w[3]{};
     Direction<N> n = g;
-    if (corner_weights<N>(vertices[s.corner(0)], vertices[s.corner(1)], vertices[s.corner(2)], ray, w)) {
-        const Direction<N>& na = normals[s.corner(0)];
-        const Direction<N>& nb = normals[s.corner(1)];
-        const Direction<N>& nc = normals[s.corner(2)];
+    if (corner_weights(s.figure(corners.points), ray, w)) {
+        const auto [a, b, c, count] = s.figure(corners.normals);
         using Blend = Vec<typename N::Cosine>;
-        normalise_short<N>(Blend{w[0] * na.x + w[1] * nb.x + w[2] * nc.x, w[0] * na.y + w[1] * nb.y + w[2] * nc.y,
-                                 w[0] * na.z + w[1] * nb.z + w[2] * nc.z},
+        normalise_short<N>(Blend{w[0] * a->x + w[1] * b->x + w[2] * c->x, w[0] * a->y + w[1] * b->y + w[2] * c->y,
+                                 w[0] * a->z + w[1] * b->z + w[2] * c->z},
                            n);
     }
     return n;
 }
 
-// Moves a figure's normal, its ball and its corners; corner(i) is the number of the i-th.
-template <class N, class S, class Corner>
-constexpr bool move_figure(const S& from, uint32_t count, Corner corner, const Corners<N>& corners, const Motion<N>& motion,
-                           S& to, const MovedCorners<N>& moved)
+// What is lean keeps of its normal what its rounded corners do not say, and is for scenes that stand still.
+template <HasCorners S, class N>
+constexpr bool move(const S& from, const Corners<N>& corners, const Motion<N>& motion, S& to, const MovedCorners<N>& moved)
 {
-    if (!motion.valid())
-        return false;
-    for (uint32_t i = 0; i < count; i++)
-        if (!ball_in_world<N>(motion(corners.points[corner(i)])))
+    if constexpr (!S::is_lean) {
+        if (!motion.valid())
             return false;
-    const Point<N> middle = motion(from.middle);
-    const bool rounds = motion.turned() || motion.scaled();
-    const auto bound = motion.length(from.bound) + (rounds ? N::ulp + N::ulp + N::ulp : N::length_zero);
-    if (!ball_in_world<N>(middle) || !ball_in_world<N>({}, bound))
-        return false;
-    if (moved.points == nullptr)
-        return true;
-    for (uint32_t i = 0; i < count; i++)
-        moved.points[corner(i)] = motion(corners.points[corner(i)]);
-    if constexpr (S::is_smooth)
-        for (uint32_t i = 0; i < count; i++)
-            moved.normals[corner(i)] = motion.blend(corners.normals[corner(i)]);
-    to = from;
-    to.normal = motion.direction(from.normal);
-    to.middle = middle;
-    to.bound = bound;
-    return true;
+        const Figure<Point<N>> figure = from.figure(corners.points);
+        for (uint32_t i = 0; i < figure.count; i++)
+            if (!ball_in_world<N>(motion(figure[i])))
+                return false;
+        const Point<N> middle = motion(from.middle);
+        const bool rounds = motion.turned() || motion.scaled();
+        const auto bound = motion.length(from.bound) + (rounds ? N::ulp + N::ulp + N::ulp : N::length_zero);
+        if (!ball_in_world<N>(middle) || !ball_in_world<N>({}, bound))
+            return false;
+        if (moved.points == nullptr)
+            return true;
+        for (uint32_t i = 0; i < figure.count; i++) {
+            const auto number = &figure[i] - corners.points;
+            moved.points[number] = motion(figure[i]);
+            if constexpr (S::is_smooth)
+                moved.normals[number] = motion.blend(corners.normals[number]);
+        }
+        to = from;
+        to.normal = motion.direction(from.normal);
+        to.middle = middle;
+        to.bound = bound;
+    }
+    return !S::is_lean;
 }
 
-template <class N, class Corner>
-constexpr Box<N> box_of_figure(uint32_t count, Corner corner, const Corners<N>& corners)
+template <HasCorners S, class N>
+constexpr Box<N> box_of(const S& s, const Corners<N>& corners)
 {
-    Box<N> box{corners.points[corner(0)], corners.points[corner(0)]};
-    for (uint32_t i = 1; i < count; i++)
-        box.add(corners.points[corner(i)], corners.points[corner(i)]);
+    const Figure<Point<N>> figure = s.figure(corners.points);
+    Box<N> box{*figure.first, *figure.first};
+    for (uint32_t i = 1; i < figure.count; i++)
+        box.add(figure[i], figure[i]);
     return box;
 }
 

@@ -72,8 +72,8 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
                                                                           QRAY_INLINE_LAMBDA {
             return with_shape(scene, id.kind(), id.index(), [&](const auto& shape, Kind kind, uint32_t index)
                                                                 QRAY_INLINE_LAMBDA {
-                if constexpr (requires { encloses(shape, corners_of(scene), ray); })
-                    if (open && !encloses(shape, corners_of(scene), ray))
+                if constexpr (requires { encloses(shape, corners_of(scene).points, ray); })
+                    if (open && !encloses(shape, corners_of(scene).points, ray))
                         return false;
                 return f(shape, kind, index);
             });
@@ -109,7 +109,7 @@ template <class N, Effects E, class S>
 constexpr bool passes_inside(const Scene<N, E>& scene, const S& shape, const Ray<N>& ray)
 {
     if constexpr (S::has_corners)
-        return encloses(shape, corners_of(scene), ray);
+        return encloses(shape, corners_of(scene).points, ray);
     else
         return true;
 }

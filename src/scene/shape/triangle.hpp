@@ -18,7 +18,7 @@ struct HostOfMesh : Host<Shape> {
     {
         Extent box;
         for (uint32_t i = 0; i < 3; i++)
-            box.add(value(corners.points[s.corner(i)]));
+            box.add(value(s.figure(corners.points)[i]));
         return box;
     }
 };
