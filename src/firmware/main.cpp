@@ -11,6 +11,13 @@
 #include "firmware/test_card.hpp"
 #endif
 
+// Where there are registers for numbers of floating point, a function that is called once had better not save them again.
+#ifdef __ARM_FP
+#define QRAY_FLATTEN __attribute__((flatten))
+#else
+#define QRAY_FLATTEN
+#endif
+
 int main()
 {
     static uint8_t row[3 * scene::width];
@@ -23,7 +30,8 @@ int main()
 #ifndef QRAY_SCENE_HEADER
     const bool whole = test_card::render(row, sink);
 #else
-    const bool whole = qray::render<qray::Rgb888>(scene::scene, row, 1, sink);
+    const auto draw = [&]() QRAY_FLATTEN { return qray::render<qray::Rgb888>(scene::scene, row, 1, sink); };
+    const bool whole = draw();
 #endif
     return whole && board::close_picture() ? 0 : 1;
 }
