@@ -256,4 +256,29 @@ TEST(Lanes, UnitVectorOfNothingIsNone)
     EXPECT_TRUE(f == (Vec<float>{1, 2, 3}));
 }
 
+// As if each light's had been added in its turn: more than a register has, some without any, shines of all kinds.
+TEST(Lanes, HighlightsTogether)
+{
+    Random random(97);
+    for (const Float::Shine shine :
+         {Float::Shine{0, 0}, {1, 0}, {30, 0}, {0, 0.3f}, {4, 0.81884f}, {1000000, 0x1p-24f}}) {
+        for (int i = 0; i < 2000; i++) {
+            const Highlight<Float> h{i % 7 == 0 ? 0 : static_cast<float>(random.uniform(0, 1)), shine};
+            LateHighlights<Float> late;
+            Rgb<Float> expected{0, 0, 0}, sum = expected, colours[11];
+            for (Rgb<Float>& colour : colours) {
+                const double size = random.uniform(0, 5);
+                const float x = size < 1 ? 0 : size < 2 ? 1 : static_cast<float>(std::exp2(-std::pow(size - 2, 5)));
+                const float share = static_cast<float>(random.uniform(0, 1));
+                colour = {static_cast<float>(random.uniform(0, 1)), 0, 1};
+                const float part = h.amount * Float::power(x, shine) * share;
+                expected = {expected.x + part * colour.x, 0, expected.z + part};
+                late.add(h, x, share, colour, sum);
+            }
+            late.finish(h, sum);
+            EXPECT_EQ(sum, expected) << shine.whole << ' ' << shine.fraction;
+        }
+    }
+}
+
 } // namespace

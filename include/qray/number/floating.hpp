@@ -2,6 +2,7 @@
 // are only as exact as that, and block scales are 0.
 #pragma once
 
+#include "lanes.hpp"
 #include "system.hpp"
 
 namespace qray {
@@ -63,6 +64,9 @@ struct FloatSystem {
         else
             return sqrt_double(a);
     }
+#if QRAY_LANES
+    QRAY_INLINE static Float4 root(Float4 a) { return __builtin_ia32_sqrtps(a); }
+#endif
     QRAY_INLINE static constexpr bool quotient(F num, F den, int, F& t)
     {
         if (den == 0)
@@ -146,14 +150,16 @@ struct FloatSystem {
 
     static constexpr F light_clearance = F(2048) * epsilon;
 
-    QRAY_INLINE static constexpr F power_whole(F x, Shine e)
+    // Of a number, or of each of several in a register.
+    template <class V>
+    QRAY_INLINE static constexpr V power_whole(V x, Shine e)
     {
         uint32_t n = e.whole;
         if (n == 0)
-            return 1;
+            return V{} + F(1);
         for (; (n & 1) == 0; n >>= 1)
             x *= x;
-        F r = x;
+        V r = x;
         while ((n >>= 1) != 0) {
             x *= x;
             if (n & 1)
@@ -165,35 +171,38 @@ struct FloatSystem {
     {
         if (x == 0) // half of all highlights
             return e.whole == 0 && !(e.fraction > 0) ? F(1) : F(0);
-        return e.fraction > 0 ? power_whole(x, e) * power_fraction(x, e.fraction) : power_whole(x, e);
+        return e.fraction > 0 ? power_whole(x, e) * power_fraction(x, x, e.fraction) : power_whole(x, e);
     }
 
-    // x^f for x in (0, 1], f in (0, 1): square roots of x, one for each bit of f that matters. Where roots are slow and
-    // space is not, the last ones are found in steps of u = 2^-24 below 1: the root of 1 - m u, with m < 2^12, is
-    // 1 - (m/2 + m^2 u/8 + ...) u, and all after m/2 is above 0 and less than 1/7: the next m is m/2, halves up.
-    static constexpr F power_fraction(F x, F f)
+    // x^f for x in (0, 1], none below `least`, f in (0, 1): square roots of x, one for each bit of f that matters.
+    // Where roots are slow and space is not, the last ones are found in steps of u = 2^-24 below 1: the root of
+    // 1 - m u, with m < 2^12, is 1 - (m/2 + m^2 u/8 + ...) u, and all after m/2 is above 0 and less than 1/7: the next
+    // m is m/2, halves up.
+    template <class V>
+    static constexpr V power_fraction(V x, [[maybe_unused]] F least, F f)
     {
         using Bits = decltype(bits_of(F{}));
         constexpr int bits = sizeof(F) == 4 ? 24 : 53, top = sizeof(F) * 8 - 1;
         Bits left = static_cast<Bits>(f * static_cast<F>(Bits{1} << bits)) << (top + 1 - bits);
-        F r = 1;
+        V r = V{} + F(1);
         int roots = bits;
         if constexpr (counts_steps) {
             // 12 + k roots of 2^-(2^k) or more are above 1 - 2^-12; so are 19 of any.
-            const uint32_t below_half = 126 - (__builtin_bit_cast(uint32_t, x) >> 23);
+            const uint32_t below_half = 126 - (__builtin_bit_cast(uint32_t, least) >> 23);
             roots = 44 - count_leading_zeros(below_half);
         }
         for (; left != 0 && roots != 0; left <<= 1, roots--) {
-            x = sqrt(x);
+            x = root(x);
             if (left >> top != 0)
                 r *= x;
         }
         if constexpr (counts_steps) {
-            constexpr uint32_t of_one = __builtin_bit_cast(uint32_t, 1.0f);
-            for (uint32_t m = of_one - __builtin_bit_cast(uint32_t, x); left != 0; left <<= 1) {
+            using Steps = decltype(bits_of(x));
+            const Steps of_one = __builtin_bit_cast(Steps, V{} + 1.0f);
+            for (Steps m = of_one - __builtin_bit_cast(Steps, x); left != 0; left <<= 1) {
                 m = (m + 1) / 2;
                 if (left >> top != 0)
-                    r *= __builtin_bit_cast(float, of_one - m);
+                    r *= __builtin_bit_cast(V, of_one - m);
             }
         }
         return r;
@@ -202,6 +211,9 @@ struct FloatSystem {
 private:
     static constexpr bool counts_steps = sizeof(F) == 4 && sizeof(void*) == 8;
     static uint32_t bits_of(float);
+#if QRAY_LANES
+    static Unsigned4 bits_of(Float4);
+#endif
     static uint64_t bits_of(double);
 };
 

@@ -76,6 +76,7 @@ QRAY_INLINE Bounds mul_add(const Bounds& a, const Bounds& b, const Bounds& c)
 // x, y, z and a number that does not count.
 typedef float Float4 __attribute__((vector_size(16)));
 typedef int32_t Signed4 __attribute__((vector_size(16)));
+typedef uint32_t Unsigned4 __attribute__((vector_size(16)));
 
 QRAY_INLINE Float4 lane_floor(Float4 v) { return __builtin_ia32_roundps(v, 9); }
 QRAY_INLINE Float4 lane_absolute(Float4 v)

@@ -18,8 +18,11 @@ struct NoCount {
 // Light at a surface seen along d: what the matte part gathers (to be multiplied by its colour) and the highlights.
 template <class N, Effects E>
 struct Gathered {
+    // Panels add theirs at once.
+    static constexpr bool late = LateHighlights<N>::pays && E.tree && E.fractional_shine && !E.panel;
     Rgb<N> matte;
     [[no_unique_address]] Maybe<Rgb<N>, E.highlight> highlight;
+    [[no_unique_address]] Maybe<LateHighlights<N>, late> waiting{};
 };
 
 // The same of one colour, from the places of a panel: as sums of shares in [0, 1], so that it is rounded once.
@@ -95,14 +98,15 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
     auto diffuse = N::unit(scene.mattes[seen.material].diffuse * n_l);
     [[maybe_unused]] auto highlight = N::zero;
     // A power takes long: on a desktop only where the light is known to come.
-    constexpr bool waits = E.highlight && E.tree;
+    constexpr bool waits = E.highlight && E.tree, late = Gathered<N, E>::late;
+    [[maybe_unused]] auto share = N::one;
     if constexpr (waits) {
         if (diffuse == N::zero)
             highlight = highlight_along(scene, seen, l, n_l);
     } else if constexpr (E.highlight) {
         highlight = highlight_along(scene, seen, l, n_l);
     }
-    const bool waiting = waits && diffuse != N::zero;
+    const bool waiting = waits && !late && diffuse != N::zero;
     if (diffuse == N::zero && highlight == N::zero)
         return;
     if constexpr (E.shadow) {
@@ -114,6 +118,8 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
                 if (through == N::zero)
                     return;
                 diffuse = N::unit(diffuse * through);
+                if constexpr (late)
+                    share = through;
                 if constexpr (waits)
                     if (waiting)
                         highlight = highlight_along(scene, seen, l, n_l);
@@ -131,7 +137,11 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
         sum.add(diffuse, highlight);
     } else {
         add_scaled<N>(sum.matte, diffuse, colour);
-        if constexpr (E.highlight)
+        if constexpr (late)
+            sum.waiting.value.add(scene.highlights[seen.material],
+                                  mirrored_cosine<N>(l, seen.direction, n_l, seen.surface.n_d), share, colour,
+                                  sum.highlight.value);
+        else if constexpr (E.highlight)
             add_scaled<N>(sum.highlight.value, highlight, colour);
     }
 }
@@ -182,6 +192,8 @@ QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N>
         }
     QRAY_LIGHTS(QRAY_GATHER)
 #undef QRAY_GATHER
+    if constexpr (Gathered<N, E>::late)
+        sum.waiting.value.finish(scene.highlights[seen.material], sum.highlight.value);
     Rgb<N> light{};
     if constexpr (N::is_fixed) { // a copy costs floating point registers, and saves others
         const Vec<typename N::Unit> m = colour_at(scene, seen.material, seen.surface.point);
