@@ -30,6 +30,17 @@ constexpr Pixel render_pixel(const Scene<N, E>& scene, uint32_t i, uint32_t j, C
 template <class Format, class N, Effects E, class Count = NoCount>
 constexpr void render_row(const Scene<N, E>& scene, uint32_t j, uint8_t* out, Count&& count = Count{})
 {
+    if constexpr (in_lanes<N> && !E.grid && !E.adaptive && !E.panel) {
+        // Each ray is made before the last one is traced: a walk that waits leaves room for it.
+        const Camera<N>& c = scene.camera;
+        const Pencil<N> row = c.row(2 * static_cast<int32_t>(j) + 1 - c.height);
+        Ray<N> rays[2] = {eye_ray(scene, row + c.right * (1 - c.width)), {}};
+        for (uint32_t i = 0; i < c.width; i++) {
+            rays[~i & 1] = eye_ray(scene, row + c.right * (2 * static_cast<int32_t>(i) + 3 - c.width));
+            Format::put(pixel_along(scene, rays[i & 1], count), i, j, out + i / Format::pixels * Format::bytes);
+        }
+        return;
+    }
     for (uint32_t i = 0; i < scene.camera.width; i++)
         Format::put(render_pixel(scene, i, j, count), i, j, out + i / Format::pixels * Format::bytes);
 }

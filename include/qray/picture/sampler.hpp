@@ -108,12 +108,17 @@ QRAY_INLINE constexpr Pixel pixel_at(const Scene<N, E>& scene, const Pencil<N>& 
     return pixel_of(sample(scene, at, count, place...));
 }
 template <class N, Effects E, class Count, class... Place>
-QRAY_INLINE Pixel pixel_at(const Scene<N, E>& scene, const Pencil<N>& at, Count& count, Place... place)
+QRAY_INLINE Pixel pixel_along(const Scene<N, E>& scene, Ray<N>& ray, Count& count, Place... place)
 {
     uint8_t rgb[3]{};
-    Ray<N> ray = eye_ray(scene, at); // a copy would wait for what was just written in parts
     clamped_bytes<N>(trace<N, E, Ray<N>&>(scene, ray, count, place...), scene.exposure, rgb);
     return {rgb[0], rgb[1], rgb[2]};
+}
+template <class N, Effects E, class Count, class... Place>
+QRAY_INLINE Pixel pixel_at(const Scene<N, E>& scene, const Pencil<N>& at, Count& count, Place... place)
+{
+    Ray<N> ray = eye_ray(scene, at); // a copy would wait for what was just written in parts
+    return pixel_along(scene, ray, count, place...);
 }
 
 } // namespace qray
