@@ -32,7 +32,8 @@ template <FloatLanes N>
 struct LateHighlights<N> {
     static constexpr bool pays = true;
 
-    QRAY_INLINE void add(const Highlight<N>& h, float cosine, float share, const Rgb<N>& colour, Rgb<N>& sum)
+    QRAY_INLINE void add(const Highlight<N>& h, typename N::Unit cosine, typename N::Unit share, const Rgb<N>& colour,
+                         Rgb<N>& sum)
     {
         if (!(h.amount > 0) || (cosine == 0 && h.shine.fraction > 0))
             return;
@@ -61,7 +62,7 @@ private:
     static constexpr uint32_t most = 4;
     Float4 cosines{1, 1, 1, 1}; // the last first
     uint32_t count = 0;
-    float shares[most]; // of the light that comes through
+    typename N::Unit shares[most]; // of the light that comes through
     const Rgb<N>* colours[most];
 };
 #endif
