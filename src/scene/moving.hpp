@@ -16,20 +16,21 @@ enum class TableId : uint8_t { QRAY_TABLES(QRAY_NAME) };
 inline constexpr std::string_view table_names[] = {QRAY_TABLES(QRAY_NAME)};
 #undef QRAY_NAME
 
-constexpr uint32_t bit_of(TableId table) { return uint32_t{1} << static_cast<int>(table); }
-inline constexpr uint32_t camera_moves = uint32_t{1} << 31; // in every scene that moves
+constexpr uint64_t bit_of(TableId table) { return uint64_t{1} << static_cast<int>(table); }
+inline constexpr uint64_t camera_moves = uint64_t{1} << 63; // in every scene that moves
+static_assert(sizeof table_names / sizeof *table_names < 64);
 
 #define QRAY_BIT(Type, name, table) | bit_of(TableId::table)
-inline constexpr uint32_t shape_tables = 0 QRAY_SHAPES(QRAY_BIT);
+inline constexpr uint64_t shape_tables = 0 QRAY_SHAPES(QRAY_BIT);
 // What can be named: of the rest, some move along.
-inline constexpr uint32_t movable_tables = shape_tables QRAY_LIGHTS(QRAY_BIT) | bit_of(TableId::mattes);
+inline constexpr uint64_t movable_tables = shape_tables QRAY_LIGHTS(QRAY_BIT) | bit_of(TableId::mattes);
 #undef QRAY_BIT
 
 // With what follows the tables that are named.
-constexpr uint32_t with_followers(uint32_t moving)
+constexpr uint64_t with_followers(uint64_t moving)
 {
-    const auto any = [moving](uint32_t tables) { return (moving & tables) != 0; };
-    uint32_t all = moving | camera_moves;
+    const auto any = [moving](uint64_t tables) { return (moving & tables) != 0; };
+    uint64_t all = moving | camera_moves;
     if (any(shape_tables))
         all |= bit_of(TableId::entries);
     if (any(bit_of(TableId::polygons) | bit_of(TableId::patches)))
@@ -40,16 +41,16 @@ constexpr uint32_t with_followers(uint32_t moving)
 }
 
 // "spheres,lights", "camera", "all"; false where something else is named.
-constexpr bool read_moving(std::string_view text, uint32_t& moving)
+constexpr bool read_moving(std::string_view text, uint64_t& moving)
 {
     moving = camera_moves;
     while (true) {
         const size_t comma = text.find(',');
         const std::string_view name = text.substr(0, comma);
-        uint32_t found = name == "camera" ? camera_moves : name == "all" ? movable_tables : 0;
+        uint64_t found = name == "camera" ? camera_moves : name == "all" ? movable_tables : 0;
         for (size_t i = 0; i < sizeof table_names / sizeof *table_names; i++)
             if (name == table_names[i])
-                found = movable_tables & uint32_t{1} << i;
+                found = movable_tables & uint64_t{1} << i;
         if (found == 0)
             return false;
         moving |= found;

@@ -14,8 +14,9 @@ struct Settings {
     double cutoff = 0.0014;
     uint32_t levels = 0; // of adaptive sampling; 0: none
     double threshold = 1.0 / 16;
+    uint32_t light_bits = 8; // of a colour in light maps: 2, 4 or 8
     bool compiled = false; // for a header: a tree that boards can read, and triangles in little room
-    uint32_t moving = 0; // tables of a header that can be changed; see moving.hpp
+    uint64_t moving = 0; // tables of a header that can be changed; see moving.hpp
     Extent within{};     // where things will be, beside where they are; empty if nothing was said
     bool bounded() const { return within.low.x <= within.high.x; }
     bool stands() const { return moving == 0 && !bounded(); }

@@ -42,7 +42,7 @@ struct Storage {
     EyeSurface<N> eye_surface; // Tag::none: on no surface
     qray::Frame<N> frame;      // of a scene that moves,
     qray::View<N> text_view;   // and its view
-    uint32_t moving;           // as Settings
+    uint64_t moving;           // as Settings
     Rgb<N> background;
     int32_t exposure;
     uint8_t max_depth;
