@@ -109,6 +109,8 @@ class Options(Cli):
             "-a": ["", "0", "7", "-1", "x", "2,", ",0.5", "2,1.01", "2,-0.5", "2,nan", "2,0.5,1", "1.5"],
             "-d": ["", "0", "65", "-1", "2.5", "x"],
             "--cutoff": ["", "-0.1", "1.1", "nan", "inf", "x", "1e400"],
+            "--light-bits": ["", "0", "1", "3", "6", "16", "x"],
+            "--within": ["", "1,2,3", "1,2,3,4,5,x"],
             "-j": ["", "0", "257", "-1", "1.5", "x"],
             "-o": [""],
         }
@@ -383,7 +385,8 @@ class Files(Cli):
                     ["compile", "many.nff", "-q", "-o", "-"], ["--help"]]
         for arguments in programs:
             found = set()
-            for kilobytes in (3072, 3200, 3500, 4000, 5000, 6000, 7000, 8000, 10000, 12000, 16000, 32000, 64000):
+            start = os.path.getsize(QRAY) // 1024 + 100
+            for kilobytes in (start, start + 200, 4000, 5000, 6000, 7000, 8000, 10000, 12000, 16000, 32000, 64000):
                 limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (kilobytes << 10, kilobytes << 10))
                 status, out, err = self.run_qray(*arguments, preexec_fn=limit)
                 found.add(status)

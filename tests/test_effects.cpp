@@ -19,7 +19,7 @@ constexpr bool Effects::* lights[] = {QRAY_LIGHTS(QRAY_FLAG)};
 
 TEST(Effects, AreFlagsAndADepth)
 {
-    EXPECT_EQ(sizeof(Effects), std::size(flags) + sizeof(Effects::depth));
+    EXPECT_EQ(sizeof(Effects), std::size(flags) + sizeof(Effects::depth) + sizeof(Effects::moving) + sizeof(Effects::light_bits));
 }
 
 TEST(Effects, AreInTheListOfTheirKind)

@@ -9,7 +9,7 @@ FW_SRC    := src/boards
 FW_BOARDS := $(patsubst $(FW_SRC)/%/board.mk,%,$(wildcard $(FW_SRC)/*/board.mk))
 FW_OPTIONS = $(if $(NUMBER),-n $(NUMBER)) $(if $(SIZE),-s $(SIZE)) $(if $(SAMPLES),-r $(SAMPLES)) \
     $(if $(ADAPTIVE),-a $(ADAPTIVE)) $(if $(DEPTH),-d $(DEPTH)) $(if $(CUTOFF),--cutoff $(CUTOFF)) \
-    $(if $(WITHIN),--within $(WITHIN))
+    $(if $(WITHIN),--within $(WITHIN)) $(if $(LIGHT_BITS),--light-bits $(LIGHT_BITS))
 # Shells may have variables of these names: Zephyr's a BOARD, WSL's a NAME.
 ifeq ($(origin NAME),environment)
 undefine NAME

@@ -121,6 +121,10 @@ constexpr Option table[] = {
      [](Options& o, const char* v) { return whole(v, 1, scene::Settings::max_depth, o.settings.depth); }},
     {"--cutoff", "W", all, "weight below which rays are not traced (default: 0.0014)", "a number from 0 to 1",
      [](Options& o, const char* v) { return share(v, o.settings.cutoff); }},
+    {"--light-bits", "B", all, "bits of a colour in light maps: 2, 4 or 8 (default: 8)", "2, 4 or 8",
+     [](Options& o, const char* v) {
+         return whole(v, 2, 8, o.settings.light_bits) && (o.settings.light_bits & (o.settings.light_bits - 1)) == 0;
+     }},
     {"--within", "BOX", all, "where things will be: a box around the scene, for its scale (x,y,z,x,y,z)",
      "two corners of a box, X,Y,Z,X,Y,Z", take_within},
     {"--moving", "WHAT", compile, "tables that change, in RAM: camera, spheres,lights and so on, or all",

@@ -550,7 +550,7 @@ private:
         const Vec3d step{top(high.x), top(high.y), top(high.z)};
         const LightAxis<N> x = light_axis(grid, grid.x), y = light_axis(grid, grid.y);
         s.light_maps.push() = {x, y, colour(step * (N::is_fixed ? 256 : 0x1p-16)), static_cast<uint16_t>(grid.x.count),
-                               static_cast<uint16_t>(grid.y.count), s.light_cells.count,
+                               static_cast<uint16_t>(grid.y.count), light_values,
                                grid.cuts != 0 ? s.light_knots.count : LightMap<N>::whole, s.light_cuts.count};
         for (uint32_t i = 0; grid.cuts != 0 && i < (grid.x.count - 1) * (grid.y.count - 1); i++)
             s.light_knots.push() = {static_cast<uint16_t>(d.roots[grid.first_root + i])};
@@ -558,11 +558,22 @@ private:
             const WallCut& cut = d.cuts[i];
             s.light_cuts.push() = {light_plane(cut), static_cast<uint16_t>(cut.above), static_cast<uint16_t>(cut.below)};
         }
+        const uint32_t most = (1u << settings.light_bits) - 1;
         for (const Vec3d* c = first; c != end; c++)
             for (double Vec3d::*part : {&Vec3d::x, &Vec3d::y, &Vec3d::z})
-                s.light_cells.push() = {static_cast<uint8_t>(fmin(floor(c->*part / step.*part + 0.5), steps))};
+                light_value(static_cast<uint32_t>(fmin(floor(c->*part / (step.*part * (255 / most)) + 0.5), most)), most);
         return s.light_maps.count - 1;
     }
+    // Only compiled scenes have several in a byte.
+    void light_value(uint32_t level, uint32_t most)
+    {
+        const uint32_t bits = settings.compiled ? settings.light_bits : 8, shift = light_values++ * bits % 8;
+        if (shift == 0)
+            s.light_cells.push() = {};
+        s.light_cells.data[s.light_cells.count - 1].value |=
+            static_cast<uint8_t>(settings.compiled ? level << shift : level * (255 / most));
+    }
+    uint32_t light_values = 0;
 
     // Of row . q + offset of a point q in the moved and scaled scene.
     static LightSteps<N> light_steps(const Vec3d& row, double offset)
@@ -689,6 +700,8 @@ private:
         e.grid = settings.levels == 0 && settings.grid > 1;
         e.adaptive = settings.levels != 0;
         e.depth = e.transmit ? static_cast<uint8_t>(settings.depth) : 1;
+        if (e.light_map && settings.compiled)
+            e.light_bits = static_cast<uint8_t>(settings.light_bits);
         s.effects = e;
     }
 };

@@ -201,7 +201,10 @@ private:
         for (const EffectName& name : effect_names)
             if (e.*name.effect)
                 out.print("    .%s = true,\n", name.name);
-        out.print("    .depth = %u,\n%s};\n", unsigned{e.depth}, e.moving ? "    .moving = true,\n" : "");
+        out.print("    .depth = %u,\n%s", unsigned{e.depth}, e.moving ? "    .moving = true,\n" : "");
+        if (e.light_bits != 8)
+            out.print("    .light_bits = %u,\n", unsigned{e.light_bits});
+        out.put("};\n");
     }
 
     bool moves(std::string_view table) const

@@ -16,8 +16,8 @@ import check_elf  # noqa: E402
 from test_boards import BOARDS, PARTS, make, tools  # noqa: E402
 
 BUDGETS = "tests/firmware/budgets.txt"
-OPTIONS = {"horizon": "SAMPLES=4", "castle": "ADAPTIVE=2", "mirrors": "DEPTH=9", "glass": "CUTOFF=0.02"}
-FLAGS = {"SAMPLES": "-r", "ADAPTIVE": "-a", "DEPTH": "-d", "CUTOFF": "--cutoff"}
+OPTIONS = {"horizon": "SAMPLES=4", "castle": "ADAPTIVE=2", "mirrors": "DEPTH=9", "glass": "CUTOFF=0.02", "cornell": "LIGHT_BITS=4"}
+FLAGS = {"SAMPLES": "-r", "ADAPTIVE": "-a", "DEPTH": "-d", "CUTOFF": "--cutoff", "LIGHT_BITS": "--light-bits"}
 ALL = "--all" in sys.argv
 
 

@@ -13,6 +13,7 @@ struct Effects {
     // entries of the tracer's stack: the greatest max depth. Only transmit has a stack.
     uint8_t depth = 5;
     bool moving = false; // the camera stands beside the scene, in RAM
+    uint8_t light_bits = 8; // of a colour in light maps: 2, 4 or 8
 
 #define QRAY_COUNT(Type, name, table) +name
     constexpr int shapes() const { return QRAY_SHAPES(QRAY_COUNT); }

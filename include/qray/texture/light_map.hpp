@@ -35,7 +35,8 @@ struct LightPlane {
     Vec<typename N::Unit> normal; // unit
     typename N::Length height;    // normal . p
 };
-// And of the light at all nodes: red, green and blue each.
+// And of the light at all nodes: red, green and blue each, in 8 bits or, where a scene is compiled so, in 4 or 2, several
+// in a byte, the first lowest.
 template <class N>
 struct LightCell {
     uint8_t value;
@@ -94,8 +95,8 @@ struct LightMap {
     uint32_t roots; // the first link, among the knots
     uint32_t cuts;  // the first of its own
 
-    // Between four nodes; beyond the outermost as there. `scene` has the tables.
-    template <class Scene>
+    // Between four nodes; beyond the outermost as there. `scene` has the tables, Bits for a colour of its cells.
+    template <uint32_t Bits, class Scene>
     QRAY_INLINE constexpr Rgb<N> at(const Point<N>& q, const Scene& scene) const
     {
         const LightKnot<N>* const knots = scene.light_knots.data;
@@ -111,18 +112,30 @@ struct LightMap {
                 cell = uint32_t{columns} * rows + 2 * link - 4;
                 row = 2;
             }
-        const LightCell<N>* const low = scene.light_cells.data + first + 3 * cell;
-        const LightCell<N>* const high = low + 3 * row;
-        return {light(low, high, u & 255, v & 255, scale.x), light(low + 1, high + 1, u & 255, v & 255, scale.y),
-                light(low + 2, high + 2, u & 255, v & 255, scale.z)};
+        const LightCell<N>* const cells = scene.light_cells.data;
+        const uint32_t low = first + 3 * cell, high = low + 3 * row;
+        return {light<Bits>(cells, low, high, u & 255, v & 255, scale.x),
+                light<Bits>(cells, low + 1, high + 1, u & 255, v & 255, scale.y),
+                light<Bits>(cells, low + 2, high + 2, u & 255, v & 255, scale.z)};
     }
 
 private:
-    QRAY_INLINE static constexpr typename N::Colour light(const LightCell<N>* low, const LightCell<N>* high, uint32_t u,
-                                                          uint32_t v, typename N::Colour scale)
+    // 0 to 255.
+    template <uint32_t Bits>
+    QRAY_INLINE static constexpr uint32_t value(const LightCell<N>* cells, uint32_t i)
     {
-        const uint32_t below = low[0].value * (256 - u) + low[3].value * u;
-        const uint32_t above = high[0].value * (256 - u) + high[3].value * u;
+        constexpr uint32_t most = (1u << Bits) - 1;
+        if constexpr (Bits == 8)
+            return cells[i].value;
+        else
+            return (cells[i * Bits / 8].value >> i * Bits % 8 & most) * (255 / most);
+    }
+    template <uint32_t Bits>
+    QRAY_INLINE static constexpr typename N::Colour light(const LightCell<N>* cells, uint32_t low, uint32_t high,
+                                                          uint32_t u, uint32_t v, typename N::Colour scale)
+    {
+        const uint32_t below = value<Bits>(cells, low) * (256 - u) + value<Bits>(cells, low + 3) * u;
+        const uint32_t above = value<Bits>(cells, high) * (256 - u) + value<Bits>(cells, high + 3) * u;
         const uint32_t sum = below * (256 - v) + above * v; // in 2^-16, below 2^24
         if constexpr (NarrowFixed<N>)
             return {static_cast<int32_t>((sum >> 9) * static_cast<uint32_t>(scale.raw) >> 15)};

@@ -14,7 +14,7 @@ QRAY_INLINE constexpr Rgb<N> light_of_surfaces(const Scene<N, E>& scene, Tag tag
     const uint32_t number = inside ? of.inside : of.outside;
     if (number >= LightOf<N>::even)
         return scene.even_lights[number - LightOf<N>::even].light;
-    return scene.light_maps[number].at(q, scene);
+    return scene.light_maps[number].template at<E.light_bits>(q, scene);
 }
 
 } // namespace qray

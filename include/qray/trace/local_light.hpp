@@ -1,6 +1,7 @@
 // Light at a surface: from lamps that nothing hides, from other surfaces, and its own.
 #pragma once
 
+#include "../surface/late_highlights.hpp"
 #include "light_of_surfaces.hpp"
 #include "see_through.hpp"
 #include "shadow.hpp"
