@@ -13,6 +13,7 @@ import growth  # noqa: E402
 import ladder  # noqa: E402
 import radiosity  # noqa: E402
 import runs  # noqa: E402
+import soft  # noqa: E402
 import text as texts  # noqa: E402
 from text import count, table  # noqa: E402
 
@@ -61,6 +62,7 @@ REPORTS = {
     **texts.REPORTS,
     **growth.REPORTS,
     **radiosity.REPORTS,
+    **soft.REPORTS,
     "effects": (effects, lambda: ["+ " + name for name, *_ in ladder.STEPS[1:]]),
 }
 
