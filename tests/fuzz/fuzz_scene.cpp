@@ -1,6 +1,6 @@
 // Any bytes, of which those behind the first 0 are what every file beside the scene holds: either a scene, which every
 // number system builds and draws at 8 x 8, or one line of error.
-// A libFuzzer target; with FUZZ_REPLAY defined, only the function, for the test that replays the corpus.
+// A libFuzzer target; a test includes it and replays the corpus.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

@@ -28,17 +28,8 @@ struct Gathered {
 
 // The same of one colour, from the places of a panel: as sums of shares in [0, 1], so that it is rounded once.
 template <class N>
-struct ShareSum {
-    using type = int64_t;
-};
-template <class N>
-    requires(!N::is_fixed)
-struct ShareSum<N> {
-    using type = typename N::Unit;
-};
-template <class N>
 struct GatheredShares {
-    using Sum = typename ShareSum<N>::type;
+    using Sum = ByNumber<N, int64_t, typename N::Unit>;
     Sum diffuse{}, highlight{};
 
     QRAY_INLINE constexpr void add(typename N::Unit more, typename N::Unit amount)

@@ -8,16 +8,7 @@
 namespace qray {
 
 template <class N>
-struct CoordinateOf {
-    using type = typename N::Length;
-};
-template <class N>
-    requires(N::is_fixed)
-struct CoordinateOf<N> {
-    using type = Fixed<16>;
-};
-template <class N>
-using Coordinate = typename CoordinateOf<N>::type;
+using Coordinate = ByNumber<N, Fixed<16>, typename N::Length>;
 template <class N>
 using ScenePoint = Vec<Coordinate<N>>; // a point, or a vector, in scene units
 

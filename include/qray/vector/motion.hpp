@@ -7,16 +7,6 @@
 
 namespace qray {
 
-template <class N>
-struct RotationPart {
-    using type = typename N::Unit;
-};
-template <class N>
-    requires(N::is_fixed)
-struct RotationPart<N> {
-    using type = Fixed<30>;
-};
-
 // Arguments are in scene units. One that leaves the world makes a motion that moves nothing: valid() is false.
 template <class N>
 class Motion {
@@ -103,7 +93,7 @@ public:
     }
 
 private:
-    using Part = typename RotationPart<N>::type;
+    using Part = ByNumber<N, Fixed<30>, typename N::Unit>;
     static constexpr Part one = [] {
         if constexpr (N::is_fixed)
             return Part{int32_t{1} << 30};
