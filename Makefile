@@ -85,7 +85,11 @@ build/obj/tests/%.o: tests/%.cpp build/obj/gtest.hpp.gch
 	@$(CXX) $(FLAGS) -include build/obj/gtest.hpp -c $< -o $@
 
 SANITIZED := $(patsubst build/%,build/sanitized/%,$(LIBRARY))
-build/sanitized/qray: $(patsubst build/%,build/sanitized/%,$(COMMAND))
+# Where this processor takes what is in lanes, nothing runs the kernels beside: those are linked as they are, behind all
+# else, so that what several files hold is taken with sanitizers.
+HAS_LANES := $(if $(LANES),$(shell grep -m1 -w avx2 /proc/cpuinfo 2> /dev/null))
+BESIDE    := $(if $(HAS_LANES),$(subst lanes_,kernel_,$(LANED)))
+build/sanitized/qray: $(patsubst build/%,build/sanitized/%,$(filter-out $(BESIDE),$(COMMAND))) $(BESIDE)
 	@$(CXX) -fsanitize=address,undefined $^ -pthread -o $@
 build/sanitized/tests/%: build/sanitized/obj/tests/%.o build/sanitized/obj/tests/tracer.o $(SANITIZED)
 	@mkdir -p $(@D)

@@ -2,7 +2,7 @@
 # with sanitizers, hostile scenes too.
 LANE_TESTS := $(addprefix build/lanes/,test_lanes test_vec test_hostile test_tree) \
     $(addprefix build/sanitized/lanes/,test_lanes test_hard_bounds test_fuzz_corpus)
-TESTS += $(if $(LANES),$(if $(shell grep -m1 -w avx2 /proc/cpuinfo 2> /dev/null),$(LANE_TESTS)))
+TESTS += $(if $(HAS_LANES),$(LANE_TESTS))
 
 build/lanes/%: build/obj/lanes/%.o build/obj/lanes/tracer.o $(LIBRARY)
 	@mkdir -p $(@D)
