@@ -6,7 +6,7 @@
 STUDY := src/study
 
 # The desktop's part.
-MEASURE := build/study/measure
+MEASURE := build/study/measure build/study/flip
 build/study/%: build/obj/$(STUDY)/%.o $(filter-out %/main.o,$(COMMAND))
 	@mkdir -p $(@D)
 	@$(CXX) $(OPTIMISE) $(STATIC) $^ -pthread -o $@
