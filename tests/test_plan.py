@@ -36,12 +36,14 @@ def rows(text):
     out = []
     for line in text.splitlines():
         found = re.match(r"([* ]) (\w+) +(adaptive )?([\d.,]+) +(\d) ([~ ]) +(\d+) +([\d.]+ +)?([\d.]+)"
-                         r" +(\S+) +(\S+) +(\S+)$", line)
+                         r" +([\d.]+) +([\d.]+)% +(\S+) +(\S+) +(\S+)$", line)
         if found:
-            chosen, number, adaptive, samples, depth, rough, instructions, seconds, decibels, *sizes = found.groups()
+            chosen, number, adaptive, samples, depth, rough, instructions, seconds, *accuracy, a, b, c = found.groups()
+            decibels, flip, seen = map(float, accuracy)
             way = ("-a", "ADAPTIVE") if adaptive else ("-r", "SAMPLES")
             out.append({"chosen": chosen == "*", "built": rough == " ", "instructions": int(instructions),
-                        "seconds": float(seconds or 0), "dB": float(decibels), "sizes": sizes,
+                        "seconds": float(seconds or 0), "dB": decibels, "flip": flip, "seen": seen / 100,
+                        "sizes": [a, b, c],
                         "qray": ["-n", number, way[0], samples, "-d", depth],
                         "make": [f"NUMBER={number}", f"{way[1]}={samples}", f"DEPTH={depth}"]})
     return out
@@ -50,7 +52,7 @@ def rows(text):
 def picture(*options):
     path = "build/test_plan.ppm"
     subprocess.run(["build/qray", SCENE, "-q", "-s", SIZE, "-o", path, *options], check=True)
-    return pictures.read(path).ravel().tolist()
+    return pictures.read(path)
 
 
 class Plan(unittest.TestCase):
@@ -79,8 +81,11 @@ class Plan(unittest.TestCase):
         better = picture(*options)
         for row in self.rows:
             drawn = picture(*row["qray"])
-            mean = sum((a - b) ** 2 for a, b in zip(drawn, better)) / len(better)
+            mean = ((drawn - better) ** 2).mean()
             self.assertAlmostEqual(row["dB"], min(99, 10 * math.log10(255 ** 2 / mean)) if mean else 99, delta=1)
+            seen = pictures.errors(drawn, better)
+            self.assertAlmostEqual(row["flip"], seen["flip"], delta=1e-4)
+            self.assertAlmostEqual(row["seen"], seen["seen"], delta=1e-3)
 
     def test_firmware_is_as_predicted(self):
         # One that was drawn whole, and one that was not.

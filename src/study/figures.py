@@ -160,7 +160,8 @@ def panel(study, path):
     figure, plots = plt.subplots(2, len(shown), figsize=(2.2 * len(shown), 4.4))
     for (above, below), (name, picture, truth, against) in zip(plots.T, shown):
         apart = pictures.errors(picture, truth)
-        above.set_title(f"{name}: " + (f"{apart['psnr']:.0f} dB" if apart["rms"] else "equal"), fontsize=9)
+        off = f"{apart['psnr']:.0f} dB, {apart['seen']:.0%} seen" if apart["rms"] else "equal"
+        above.set_title(f"{name}: {off}", fontsize=9)
         above.imshow(picture, interpolation="none")
         below.set_title(f"off {against} by", fontsize=8)
         errors = below.imshow(abs(picture - truth).max(2), interpolation="none", cmap="inferno",

@@ -1,11 +1,16 @@
 """Pictures that the command draws on this machine, and how far two are apart."""
 
+import json
 import math
+import os
 import re
 import subprocess
+import tempfile
 
 import numpy
 from PIL import Image
+
+from programs import output_of
 
 
 def words(setting):
@@ -33,9 +38,18 @@ def decibels(mean_square):
     return min(99, 10 * math.log10(255 ** 2 / mean_square)) if mean_square else 99
 
 
+def flip(truth, *others):
+    """[{flip, seen}] of PPMs: the mean of FLIP, and the share of pixels above the threshold of seeing (flip.hpp)."""
+    return [json.loads(line) for line in output_of("build/study/flip", truth, *others).splitlines()]
+
+
 def errors(picture, truth):
-    """PSNR, root mean square and largest difference in levels, and the share of pixels off by more than 2."""
+    """PSNR, root mean square and largest difference in levels, the share of pixels off by more than 2, and FLIP."""
     off = abs(picture - truth)
     square = float((off ** 2).mean())
-    return {"psnr": decibels(square), "rms": math.sqrt(square), "largest": int(off.max()),
-            "off": float((off.max(2) > 2).mean())}
+    with tempfile.TemporaryDirectory() as folder:
+        paths = [os.path.join(folder, name) for name in ("truth.ppm", "picture.ppm")]
+        for path, levels in zip(paths, (truth, picture)):
+            Image.fromarray(levels.astype("uint8")).save(path)
+        return {"psnr": decibels(square), "rms": math.sqrt(square), "largest": int(off.max()),
+                "off": float((off.max(2) > 2).mean()), **flip(*paths)[0]}

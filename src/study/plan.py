@@ -12,6 +12,7 @@ import os
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 
 sys.dont_write_bytecode = True
@@ -29,6 +30,7 @@ BUILDING = 48  # seconds after which no firmware is begun
 FIRST_PIXELS, WANTED_PIXELS = 1000, 24000  # to begin with, and at least where there is time
 CERTAIN = 0.1  # dB of standard error that is enough
 CERTAIN_RAYS = 0.01  # and of rays, as a share
+LOOKING = 6  # seconds for a whole picture to compare others with
 INSTRUCTIONS = 2e8  # of a firmware run, about
 GUESS = 2e4  # instructions a ray, before one is known
 LEAST_GAIN = 0.5  # dB; less is not worth a row
@@ -125,6 +127,24 @@ class Pixels:
     def decibels(self, setting):
         of = self.known[setting][:self.count]
         return pictures.decibels(sum(squares for _, squares, _ in of) / len(of) / self.head["length"] / 3)
+
+    def look(self, settings):
+        """Draws whole pictures for what an eye sees, {setting: {flip, seen}}; nothing where that takes too long."""
+        kept = self.path.replace(".pixels.", ".seen.")
+        self.seen = {Setting(*s): of for s, of in runs.kept(kept) or []}
+        todo = [s for s in settings if s not in self.seen]
+        if not todo:
+            return
+        size, scene = "{width}x{height}".format(**self.head), self.question.scene
+        with tempfile.TemporaryDirectory() as folder:
+            paths = {s: f"{folder}/{i}.ppm" for i, s in enumerate([*todo, BETTER])}
+            said = [pictures.draw(scene, size, s, to=paths[s]) for s in todo]
+            rays = max(s["rays"] / s["camera_rays"] for s in said) * int(BETTER.samples)
+            if rays * self.head["width"] * self.head["height"] / min(s["rays/second"] for s in said) > LOOKING:
+                return
+            pictures.draw(scene, size, BETTER, to=paths[BETTER])
+            self.seen.update(zip(todo, pictures.flip(paths[BETTER], *(paths[s] for s in todo))))
+        runs.keep(kept, list(self.seen.items()))
 
     def is_certain(self, setting):
         """Are rays and dB known as well as is wanted?"""
@@ -249,6 +269,7 @@ class Plan:
             last = time.monotonic()
             self.pixels.draw(self.settings, count)
             last = time.monotonic() - last
+        self.pixels.look(self.frontier(SURE))
         while True:
             todo = self.by_interest([s for s in self.frontier() if not self.is_measured(s)])
             if not todo or time.monotonic() - start > BUILDING:
@@ -297,22 +318,25 @@ def table(plan, frontier, chosen):
         return
     print(f"dB: against `build/qray {q.scene} {' '.join(pictures.words(BETTER))} -s {plan.size}`, by "
           f"{plan.pixels.count * head['length']} of {head['width'] * head['height']} pixels; 99 is no difference")
+    print("FLIP and seen: against the whole of it, the mean and the share of pixels where an eye sees a difference"
+          + ("" if plan.pixels.seen else "; it would take too long to draw"))
     if q.mhz:
         known = ", ".join(f"{n} {c:.2f}" for n, c in plan.cycles.items() if n in [s.number for s in frontier])
         known = known and f"by the core's timings ({known}), memory that never waits"
         print(f"seconds: at {q.mhz:g} MHz, cycles an instruction {known or 'unknown for this core, taken as 1'}")
     print(f"  {'number':7}{'samples':>18}{'depth':>6}{'instructions':>16}{'seconds' * bool(q.mhz):>10}{'dB':>7}"
-          f"{'flash':>8}{'RAM':>7}{'stack':>7}")
+          f"{'FLIP':>7}{'seen':>7}{'flash':>8}{'RAM':>7}{'stack':>7}")
     rough = False
     for s in frontier:
         built = plan.is_measured(s) and plan.built[s]
         rough |= not built
         sizes = [f"{built[k]}" for k in ("flash", "ram", "stack_bound")] if built else ["~"] * 3
         seconds = f"{plan.seconds(s):.3g}" if q.mhz else ""
-        samples = s.samples.replace("a", "adaptive ")
+        samples, seen = s.samples.replace("a", "adaptive "), plan.pixels.seen.get(s)
+        eye = [f"{seen['flip']:.4f}", f"{seen['seen']:.1%}"] if seen else ["-"] * 2
         print(f"{'*' if s == chosen else ' '} {s.number:7}{samples:>18}{s.depth:>6}{'' if built else '~':>2}"
               f"{plan.instructions(s):14.0f}{seconds:>10}{plan.pixels.decibels(s):7.1f}"
-              f"{sizes[0]:>8}{sizes[1]:>7}{sizes[2]:>7}")
+              f"{eye[0]:>7}{eye[1]:>7}{sizes[0]:>8}{sizes[1]:>7}{sizes[2]:>7}")
     if rough:
         print("~: there was no time to build it; asked again, it will be")
 

@@ -59,7 +59,8 @@ def board_flags(board):
 def desktop(scene, size, wanted, total=True):
     """{setting: {rays, time/float, arithmetic psnr, ..., other objects}}, or {} where it does not fit."""
     path = "{}/{}.json".format(runs.CACHE, runs.hash_of(
-        runs.tree_hash("include", "src/scene", "src/cli", "src/study/measure.cpp"), runs.text_of("build/obj/flags"),
+        runs.tree_hash("include", "src/scene", "src/cli", "src/study/measure.cpp", "src/study/flip.hpp"),
+        runs.text_of("build/obj/flags"),
         runs.scene_text(scene), size, wanted, total))
     if not os.path.exists(path):
         runs.keep(path, measure_desktop(scene, size, wanted, total))

@@ -9,6 +9,7 @@ import cycles
 import figures
 import pictures
 import runs
+import settings
 import study as study_file
 from settings import DEFAULT
 
@@ -107,6 +108,18 @@ def costs(n):
     return table(head, rows)
 
 
+def seen(study):
+    """How far each setting's picture is off, and what an eye sees of it."""
+    rows = []
+    for setting in study.settings:
+        found = [study.errors[scene][setting] for scene in study.scenes]
+        rows.append([settings.label(setting)] + [form.format(e[name]) if e else "–" for e in found
+                    for name, form in (("total psnr", "{:.1f}"), ("total flip", "{:.3f}"), ("total seen", "{:.1%}"))])
+    head = ["setting"] + [f"{figures.name_of(s)}: {what}" for s in study.scenes for what in ("dB", "FLIP", "seen")]
+    return ("How far each setting is off the best picture: PSNR, the mean of FLIP, and the share of pixels whose "
+            f"difference an eye sees.\n\n{table(head, rows)}")
+
+
 def steps(study):
     """Where the instructions of q32 and of soft float go on the M0 and the M3."""
     scene = list(study.scenes)[-1]
@@ -138,7 +151,7 @@ def study_report():
     shown = [runs.BOARDS[b] for b in study_file.BOARDS]
     plots = "".join(f"![{name}: accuracy against instructions]({FIGURES}/{name.lower()}.svg)\n"
                     for name in shown)
-    return (f"{plots}\n{costs(n)}\n"
+    return (f"{plots}\n{costs(n)}\n{seen(study)}\n"
             f"![Error against bits]({FIGURES}/bits.svg)\n"
             f"![Time and error against samples]({FIGURES}/samples.svg)\n"
             f"![The showcase in each number system]({FIGURES}/panel.svg)\n\n{steps(study)}")
