@@ -11,6 +11,7 @@ published timings of the cores make of them, with memory that never makes the co
 A load's cycles do not count what following loads gain from the pipeline, so M3 and M4F are upper
 estimates."""
 
+import collections
 import re
 import sys
 
@@ -30,6 +31,10 @@ RV32 = {"other": 1, "multiply": 1, "long multiply": 2, "divide": 37, "load": 2, 
         "branch, not taken": 1, "branch, taken": 3, "jump": 2, "call": 2, "return": 2}
 TIMINGS = {"microbit": M0, "mps2_an385": M3, "mps2_an386": M4F, "rv32_virt": RV32,
            "stm32vldiscovery": M3, "lm3s6965evb": M3, "netduinoplus2": M4F}
+
+Part = collections.namedtuple("Part", "name clock")
+PARTS = {"microbit": Part("micro:bit", 16e6), "mps2_an385": Part("STM32F103", 72e6),
+         "mps2_an386": Part("STM32F405", 168e6), "rv32_virt": Part("Ibex", 50e6)}
 
 SHAPES = {name: name + ("es" if name[-1] in "hsx" else "s") for name in told()["shapes"]}
 # The step that an instruction belongs to is that of the innermost of these files that it was inlined into.

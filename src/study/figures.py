@@ -1,10 +1,12 @@
 """The study's plots."""
 
+import math
 import os
 
 import matplotlib
 import matplotlib.pyplot as plt
 
+import cycles
 import pictures
 import runs
 import settings
@@ -19,6 +21,7 @@ MARKS = {"q16": "^", "q32": "o", "float": "s", "double": "D"}
 BITS = {"q16": 16, "q32": 32, "float": 32, "double": 64}
 TONES = ["#b9770e", "#1f5fa8", "#8e44ad", "#1a8f4c"]
 COST = "instructions/pixel at error size"
+CYCLES = "cycles/pixel at error size"
 
 
 def frontier_of(points):
@@ -54,34 +57,53 @@ def log_axis(axis):
     axis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
 
 
+WAYS = {"1": "1 sample", "a2,0.0625": "adaptive, 2 levels", "a3,0.03125": "adaptive, 3 levels"}
+PICTURE = 160 * 120  # pixels
+
+
+def means(study, board):
+    """{number: [(seconds of a picture, dB, samples), ...]} of depth and cutoff by default: the mean of the scenes."""
+    out = {}
+    for setting in study.settings:
+        of = [r for r in study.rows if r["board"] == board and r["setting"] == setting]
+        if len(of) == len(study.scenes) and setting[2:] == settings.DEFAULT[2:] and setting.number != "double":
+            cost = math.exp(sum(math.log(r[CYCLES]) for r in of) / len(of)) * PICTURE / cycles.PARTS[board].clock
+            decibels = sum(r["total psnr"] for r in of) / len(of)
+            out.setdefault(setting.number, []).append((cost, decibels, setting.samples))
+    return {number: sorted(points) for number, points in out.items()}
+
+
 def frontier(study, board, path):
-    """Accuracy against instructions, a plot for each scene."""
-    figure, plots = plt.subplots(1, len(study.scenes), squeeze=False, sharey=True,
-                                 figsize=(max(7.6, 4.2 * len(study.scenes)), 4.6))
-    rows = [r for r in study.rows if r["board"] == board]
-    for axes, scene in zip(plots[0], study.scenes):
-        points = [(r[COST], r["total psnr"], r) for r in rows if r["scene"] == scene]
-        best = frontier_of(points)
-        axes.set(title=name_of(scene), xlabel="instructions a pixel", xscale="log")
-        log_axis(axes.xaxis)
-        axes.margins(0.2, 0.12)
-        axes.step([p[0] for p in best], [p[1] for p in best], "#223", where="post", linewidth=1)
-        for a, b, r in points:
-            good = any(r is q[2] for q in best)
-            style = number_style(r["number"], alpha=1 if good else 0.4, fillstyle="full" if good else "none")
-            axes.plot(a, b, **style)
-            # Nothing lies above and to the left of the frontier, but labels.
-            axes.annotate(settings.label(r["setting"]), (a, b), (-5, 3) if good else (5, -3), fontsize=7,
-                          textcoords="offset points", color=style["color"], alpha=1 if good else 0.6,
-                          ha="right" if good else "left", va="bottom" if good else "top")
-    plots[0][0].set_ylabel("accuracy (dB)")
-    for number in dict.fromkeys(r["number"] for r in rows):
-        plots[0][0].plot([], [], label=number, **number_style(number))
-    plots[0][0].legend(loc="lower right")
+    """Accuracy against time, a line for each number system and a point for each way to sample."""
+    figure, axes = plt.subplots(figsize=(7.6, 4.4))
+    lines = means(study, board)
+    best = frontier_of([p for line in lines.values() for p in line])
+    axes.step([p[0] for p in best], [p[1] for p in best], "#d5dae6", where="post", linewidth=7, zorder=1)
+    last, low = 0, False
+    for number, line in sorted(lines.items(), key=lambda item: item[1]):
+        style, good = number_style(number), frontier_of(line)
+        axes.plot(*zip(*[p[:2] for p in good]), **{**style, "linestyle": "-"}, linewidth=1.2)
+        axes.plot(*zip(*[p[:2] for p in line]), **style, fillstyle="none")
+        # Names stand below the first points, those that would meet in two rows.
+        low, last = line[0][0] < last * 1.35 and not low, line[0][0]
+        axes.annotate(number, line[0][:2], (0, -30 if low else -17), textcoords="offset points", ha="center",
+                      color=style["color"], fontweight="bold", fontsize=11)
+    # What the points are stands once, beside the line that has them all.
+    for cost, decibels, samples in max(lines.values(), key=len):
+        axes.annotate(WAYS.get(samples, samples + " samples"), (cost, decibels), (8, -4), textcoords="offset points",
+                      color="#334")
+    part = cycles.PARTS[board]
+    axes.set(xscale="log", ylabel="accuracy (dB)",
+             xlabel=f"seconds for 160 × 120 pixels at {part.clock / 1e6:.0f} MHz ({part.name})")
+    log_axis(axes.xaxis)
+    axes.margins(0.08, 0.16)
     save(figure, path, f"{runs.BOARDS[board]}: what accuracy costs",
-         "Line: nothing else is both cheaper and better. Accuracy: PSNR to double with 256 samples and depth 8, "
-         f"{study.error_size} pixels.\nWhat a label does not say is q32, 1 sample, depth 5, cutoff 0.0014; a2 and a3 "
-         "sample adaptively.")
+         f"Mean of {listed_names(study)}. Accuracy: PSNR to double with 256 samples. Grey: nothing else is both\n"
+         "cheaper and better. Seconds: cycles as modelled, memory that never waits.")
+
+
+def listed_names(study):
+    return ", ".join(map(name_of, study.scenes))
 
 
 def bits(study, path):

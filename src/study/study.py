@@ -30,7 +30,8 @@ def settings(quick=False):
         return [DEFAULT, DEFAULT._replace(number="float"), DEFAULT._replace(samples="4")]
     out = [DEFAULT._replace(number=n) for n in runs.numbers()]
     out += [DEFAULT._replace(samples=s) for s in ("4", "9", "16", "a2,0.0625", "a3,0.03125")]
-    out += [DEFAULT._replace(number=n, samples="4") for n in runs.numbers() if n not in (DEFAULT.number, "double")]
+    out += [DEFAULT._replace(number=n, samples=s) for n in runs.numbers() if n not in (DEFAULT.number, "double")
+            for s in ("4", "a2,0.0625")]
     out += [DEFAULT._replace(depth=d) for d in (1, 2, 3)]
     return out + [DEFAULT._replace(cutoff=0.02)]
 
