@@ -6,11 +6,13 @@ import os
 import re
 import subprocess
 import sys
+import types
 import unittest
 import xml.etree.ElementTree
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, "src/study")
+import cycles  # noqa: E402
 import figures  # noqa: E402
 import ladder  # noqa: E402
 import report  # noqa: E402
@@ -69,6 +71,40 @@ class Parts(unittest.TestCase):
         self.assertEqual(settings.label(settings.DEFAULT), "q32")
         self.assertEqual(settings.label(("float", "4", 5, 0.0014)), "float 4×")
         self.assertEqual(settings.label(("q32", "a2,0.0625", 3, 0.0014)), "a2 depth 3")
+
+
+class Cycles(unittest.TestCase):
+    @staticmethod
+    def saved(*lines, times=10):
+        """Of instructions in a row, each run `times` times."""
+        code = {4 * k: types.SimpleNamespace(name=line.split()[0], operands=line.partition(" ")[2], next=4 * k + 4,
+                                             kind=cycles.elf_file.PLAIN) for k, line in enumerate(lines)}
+        return cycles.dual_issue(types.SimpleNamespace(at=code.get), dict.fromkeys(code, times))
+
+    def test_two_instructions_issue_at_once(self):
+        self.assertEqual(self.saved("adds r0, r1, r2", "subs r3, r4, r5"), 10)
+        self.assertEqual(self.saved("adds r0, r1, r2", "subs r3, r4, r5", "eors r6, r4"), 10)  # the third alone
+        self.assertEqual(self.saved("adds r0, r1, r2", "subs r3, r0, r5"), 0)
+        self.assertEqual(self.saved("umull r0, r1, r2, r3", "adds r4, r1, r5"), 0)
+        self.assertEqual(self.saved("ldr r0, [r1]", "ldr r2, [r1, #4]"), 0)
+        self.assertEqual(self.saved("ldr r0, [r1]", "adds r2, r0, r3"), -10)  # the load's result is late
+        self.assertEqual(self.saved("str r0, [r1]", "adds r2, r0, r3"), 10)
+        self.assertEqual(self.saved("push {r4, lr}", "adds r2, r0, r3"), 0)
+
+    # As the manuals say it: on the M0 a push of N is 1 + N, a pop that returns 4 + N; on the M3 a taken branch is 1, and
+    # 1 to 3 to refill the pipeline.
+    def test_cycles_of_an_instruction(self):
+        def cost(board, operands, kind):
+            return cycles.cost(board, types.SimpleNamespace(operands=operands), kind)
+        self.assertEqual(cost("microbit", "{r4, r5, lr}", "load or store several"), [4, 4, 4])
+        self.assertEqual(cost("microbit", "{r4, r5, pc}", "return"), [7, 7, 7])
+        self.assertEqual(cost("mps2_an385", "10", "branch, taken"), [2, 3, 4])
+        self.assertEqual(cost("mps2_an385", "r0, r1, r2, r3", "long multiply"), [3, 4, 5])
+
+    def test_memory_that_waits(self):
+        result = {"cycles": 100, "jumps": 10, "words": 30}
+        self.assertEqual([cycles.waiting(result, w) for w in (0, 2)], [100, 120])
+        self.assertEqual(cycles.waiting(result, 2, prefetch=False), 180)
 
 
 class Readme(unittest.TestCase):

@@ -18,10 +18,10 @@ plt.rcParams.update({"svg.hashsalt": "qray", "svg.fonttype": "none", "font.size"
                      "figure.constrained_layout.use": True})
 COLOURS = {"q16": "#c0392b", "q32": "#1f5fa8", "float": "#1a8f4c", "double": "#8e44ad"}
 MARKS = {"q16": "^", "q32": "o", "float": "s", "double": "D"}
-BITS = {"q16": 16, "q32": 32, "float": 32, "double": 64}
+BITS = {"float": 32, "double": 64}  # of others their names say it
 TONES = ["#b9770e", "#1f5fa8", "#8e44ad", "#1a8f4c"]
 COST = "instructions/pixel at error size"
-CYCLES = "cycles/pixel at error size"
+CYCLES, WAIT = "cycles/pixel at error size", "cycles/pixel and wait state"
 
 
 def frontier_of(points):
@@ -63,11 +63,12 @@ PICTURE = 160 * 120  # pixels
 
 def means(study, board):
     """{number: [(seconds of a picture, dB, samples), ...]} of depth and cutoff by default: the mean of the scenes."""
-    out = {}
+    out, part = {}, cycles.PARTS[board]
     for setting in study.settings:
         of = [r for r in study.rows if r["board"] == board and r["setting"] == setting]
         if len(of) == len(study.scenes) and setting[2:] == settings.DEFAULT[2:] and setting.number != "double":
-            cost = math.exp(sum(math.log(r[CYCLES]) for r in of) / len(of)) * PICTURE / cycles.PARTS[board].clock
+            taken = [r[CYCLES] + part.waits * r[WAIT] for r in of]
+            cost = math.exp(sum(map(math.log, taken)) / len(of)) * PICTURE / part.clock
             decibels = sum(r["total psnr"] for r in of) / len(of)
             out.setdefault(setting.number, []).append((cost, decibels, setting.samples))
     return {number: sorted(points) for number, points in out.items()}
@@ -93,13 +94,14 @@ def frontier(study, board, path):
         axes.annotate(WAYS.get(samples, samples + " samples"), (cost, decibels), (8, -4), textcoords="offset points",
                       color="#334")
     part = cycles.PARTS[board]
+    waits = f"{part.waits or 'no'} wait state" + "s" * (part.waits != 1)
     axes.set(xscale="log", ylabel="accuracy (dB)",
              xlabel=f"seconds for 160 × 120 pixels at {part.clock / 1e6:.0f} MHz ({part.name})")
     log_axis(axes.xaxis)
     axes.margins(0.08, 0.16)
     save(figure, path, f"{runs.BOARDS[board]}: what accuracy costs",
          f"Mean of {listed_names(study)}. Accuracy: PSNR to double with 256 samples. Grey: nothing else is both\n"
-         "cheaper and better. Seconds: cycles as modelled, memory that never waits.")
+         f"cheaper and better. Seconds: cycles as modelled, {waits} for flash.")
 
 
 def listed_names(study):
@@ -119,7 +121,7 @@ def bits(study, path):
             axes.hlines(of[len(of) // 2][0], k - 0.4, k + 0.4, style["color"], "--", linewidth=1)
             axes.annotate(name_of(of[0][1]) if of[0][0] < 99 else "", (k - 0.01 * len(of), of[0][0]), (6, -8),
                           textcoords="offset points", fontsize=7)
-    axes.set_xticks(range(len(numbers)), [f"{n}: {BITS.get(n, '?')} bits" for n in numbers])
+    axes.set_xticks(range(len(numbers)), [f"{n}: {BITS.get(n) or n[1:]} bits" for n in numbers])
     axes.set_ylabel("accuracy (dB)")
     save(figure, path, "Error of the arithmetic alone: a mark for each scene",
          f"PSNR to double at the same settings, {study.error_size} pixels; 99: not a byte differs. Dashed: the median.")

@@ -1,4 +1,5 @@
-"""make plan SCENE=... BOARD=... [SIZE=WxH CUTOFF=W] [MHZ=F SECONDS=S | ERROR=35dB]: which setting is worth choosing.
+"""make plan SCENE=... BOARD=... [SIZE=WxH CUTOFF=W] [MHZ=F WAITS=W SECONDS=S | ERROR=35dB]: which setting is worth
+choosing.
 
 Nothing is known of other scenes. The desktop draws pixels scattered over the whole picture (scattered.hpp) with every
 setting, and better ones. Firmware of this very scene draws a small picture in QEMU, and what that takes is scaled by
@@ -9,6 +10,7 @@ that goes into it."""
 import concurrent.futures
 import math
 import os
+import re
 import statistics
 import subprocess
 import sys
@@ -68,6 +70,10 @@ class Question:
         if not self.scene:
             fail("no scene: SCENE=scenes/x.nff")
         self.mhz, self.seconds = (positive(k, given[k]) if given.get(k) else None for k in ("MHZ", "SECONDS"))
+        waits = given.get("WAITS") or "0"
+        if not re.fullmatch("[0-9]|1[0-5]", waits):
+            fail(f"WAITS={waits}: expected wait states of the flash, 0 to 15")
+        self.waits = int(waits)
         error = given.get("ERROR")
         self.decibels = error and (positive("ERROR", error, "dB") if error.endswith("dB")
                                    else 20 * math.log10(255 / positive("ERROR", error, "dB")))
@@ -257,7 +263,8 @@ class Plan:
             todo = [(s, self.run(s, size="8x6", profile=True)) for s in first if s.number in calls]
             for s, run in self.perform(todo):
                 if "refused" not in run.result:
-                    self.cycles[s.number] = run.result["cycles"] / run.result["instructions"]
+                    taken = cycles.waiting(run.result, self.question.waits)
+                    self.cycles[s.number] = taken / run.result["instructions"]
             self.cycles = {n: self.cycles.get(n, max(self.cycles.values(), default=1)) for n, *_ in first}
         begin, last = time.monotonic(), 0
         while self.pixels.count < self.pixels.head["combs"] and time.monotonic() + 2 * last - begin < DRAWING:
@@ -322,7 +329,8 @@ def table(plan, frontier, chosen):
           + ("" if plan.pixels.seen else "; it would take too long to draw"))
     if q.mhz:
         known = ", ".join(f"{n} {c:.2f}" for n, c in plan.cycles.items() if n in [s.number for s in frontier])
-        known = known and f"by the core's timings ({known}), memory that never waits"
+        known = known and f"by the core's timings ({known}), "
+        known += f"{q.waits or 'no'} wait state" + "s" * (q.waits != 1) if known else ""
         print(f"seconds: at {q.mhz:g} MHz, cycles an instruction {known or 'unknown for this core, taken as 1'}")
     print(f"  {'number':7}{'samples':>18}{'depth':>6}{'instructions':>16}{'seconds' * bool(q.mhz):>10}{'dB':>7}"
           f"{'FLIP':>7}{'seen':>7}{'flash':>8}{'RAM':>7}{'stack':>7}")

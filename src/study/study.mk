@@ -1,6 +1,6 @@
 # Measurements; see README.md here.
 #   make study [QUICK=1]        what accuracy costs, here and on the boards: CSV and plots in build/study
-#   make plan SCENE=... BOARD=... [MHZ=... SECONDS=... | ERROR=35dB]   which number system, samples, depth
+#   make plan SCENE=... BOARD=... [MHZ=... WAITS=... SECONDS=... | ERROR=35dB]   which number system, samples, depth
 #   make report                 measure again what README.md's tables between markers say, and write them
 #   make peers PEERS=folder     the desktop beside POV-Ray and Embree, into README.md here
 STUDY := src/study
@@ -18,7 +18,7 @@ report: build/qray build/oracle $(MEASURE)
 study: build/qray $(MEASURE)
 	@$(PYTHON) $(STUDY)/study.py $(if $(QUICK),quick)
 plan: build/qray $(MEASURE)
-	@$(PYTHON) $(STUDY)/plan.py SCENE='$(SCENE)' BOARD='$(BOARD)' SIZE='$(SIZE)' CUTOFF='$(CUTOFF)' MHZ='$(MHZ)' \
+	@$(PYTHON) $(STUDY)/plan.py SCENE='$(SCENE)' BOARD='$(BOARD)' SIZE='$(SIZE)' CUTOFF='$(CUTOFF)' MHZ='$(MHZ)' WAITS='$(WAITS)' \
 	    SECONDS='$(if $(findstring command,$(origin SECONDS)),$(SECONDS))' ERROR='$(ERROR)'
 peers: build/qray
 	@$(PYTHON) $(STUDY)/peers.py '$(PEERS)'

@@ -136,13 +136,14 @@ class Study:
             pixels = math.prod(map(int, self.error_size.split("x")))
             per_ray = r["instructions"] / r["rays"]
             large = per_ray * e["rays"] / pixels
-            per = near["cycles"] / near["instructions"]
+            per, jumps = (near[k] / near["instructions"] for k in ("cycles", "jumps"))
             self.rows.append({
                 "scene": scene, "size": run.size, "board": board, **setting._asdict(),
                 "instructions/pixel": r["instructions/pixel"], "instructions/ray": round(per_ray, 1),
                 "cycles/pixel": round(r["instructions/pixel"] * per, 1),
                 "instructions/pixel at error size": round(large, 1),
                 "cycles/pixel at error size": round(large * per, 1),
+                "cycles/pixel and wait state": round(large * jumps, 1),
                 "flash": r["flash"], "ram": r["ram"], "stack": r["stack"], **e, "setting": setting})
 
     def write_csv(self):

@@ -58,7 +58,7 @@ class Numbers:
 
 
 def sentences(n):
-    """Four, and one more where q16 is among the number systems."""
+    """Four, and one for each number system that is narrower than the default."""
     out = []
     soft = [b for b in study_file.BOARDS if b != "mps2_an386"]
     single = DEFAULT._replace(number="float")
@@ -81,13 +81,13 @@ def sentences(n):
              for dial in (DEFAULT._replace(depth=3), DEFAULT._replace(depth=1), DEFAULT._replace(cutoff=0.02))]
     out.append(f"Less depth saves instructions (M0) at a price in accuracy: 3 instead of 5 {saved[0]}, 1 "
                f"instead of 5 {saved[1]}; a cutoff of 0.02 instead of 0.0014 saves {saved[2]}.")
-    if n.arithmetic("q16"):
-        q16 = DEFAULT._replace(number="q16")
-        least, middle = n.arithmetic("q16")
-        share = [f"{100 * n.ratio(b, q16, DEFAULT):.0f} % ({runs.BOARDS[b]})" for b in soft]
-        out.append(f"`q16` takes {listed(share)} of the instructions of `q32`, and its arithmetic has "
-                   f"{middle:.0f} dB on the scenes of `scenes/` (median; {least:.0f} at least there: where many mirrors "
-                   "show one another, it has less).")
+    for number in runs.numbers()[:runs.numbers().index(DEFAULT.number)]:
+        least, middle = n.arithmetic(number)
+        narrow = DEFAULT._replace(number=number)
+        share = [f"{100 * n.ratio(b, narrow, DEFAULT):.0f} % ({runs.BOARDS[b]})" for b in soft]
+        out.append(f"`{number}` takes {listed(share)} of the instructions of `{DEFAULT.number}`, and its arithmetic "
+                   f"has {middle:.0f} dB on the scenes of `scenes/` (median; {least:.0f} at least there: where many "
+                   "mirrors show one another, it has less).")
     return "\n".join(out)
 
 
@@ -106,6 +106,36 @@ def costs(n):
     head = ["board", "number"] + [f"{figures.name_of(s)}: {what}" for s in scenes
                                   for what in ("instructions/pixel", "cycles/pixel")]
     return table(head, rows)
+
+
+def time_report():
+    """Cycles and energy of a traced picture on each core, with memory that waits."""
+    scene, each = "scenes/showcase.nff", {}
+    plan = {(board, n): runs.Run(board, scene, n, study_file.traced_size(board, n), profile=True)
+            for board in runs.BOARDS for n in runs.numbers()}
+    runs.perform(list(plan.values()))
+    rows = []
+    for (board, number), run in plan.items():
+        r, part, pixels = run.result, cycles.PARTS[board], math.prod(map(int, run.size.split("x")))
+        if "refused" in r:
+            rows.append([runs.BOARDS[board], number] + ["–"] * 5)
+            continue
+        each[board, number] = own = r["cycles"] / pixels
+        waited = [" to ".join(dict.fromkeys(count(cycles.waiting(r, waits, prefetch) / pixels)
+                                            for prefetch in (True, False))) for waits in (2, 5)]
+        energy = part.charge and cycles.waiting(r, part.waits) / pixels * part.charge * part.volts * 1e-6
+        rows.append([runs.BOARDS[board], number, count(r["instructions"] / pixels),
+                     f"{count(own)} (−{1 - r['least'] / r['cycles']:.0%}, +{r['most'] / r['cycles'] - 1:.0%})", *waited,
+                     f"{energy:.{0 if energy > 10 else 1}f}" if energy else "–"])
+    parts = [f"{runs.BOARDS[b]} {p.name} at {p.clock / 1e6:.0f} MHz, wait states {p.waits}, {p.charge:.3g} µA/MHz at "
+             f"{p.volts} V" for b, p in cycles.PARTS.items() if p.charge]
+    head = ["core", "number", "instructions/pixel", "cycles/pixel", "2 wait states", "5 wait states", "µJ/pixel"]
+    quicker = each["mps2_an386", DEFAULT.number] / each["mps2_an500", DEFAULT.number]
+    return (f"`{scene}`. In brackets: how far a manual's range of timings reaches. With wait states: cycles a pixel "
+            f"behind a prefetch buffer, and without one.\n\n{table(head, rows)}\n"
+            f"Energy is that of the part's data sheet: {'; '.join(parts)}.\n"
+            f"The M7's model is {quicker:.2f} times as quick as the M4's in `{DEFAULT.number}`; in CoreMark, as "
+            f"published, an M7 is {cycles.COREMARK:.2f} times as quick.\n")
 
 
 def seen(study):
@@ -184,6 +214,7 @@ def accuracy_report():
 
 
 REPORTS = {
+    "time": (time_report, lambda: [f"| {short} | {n} |" for short in runs.BOARDS.values() for n in runs.numbers()]),
     "accuracy": (accuracy_report,
                  lambda: judged() + [f"| {n} |" for n in runs.numbers()]),
     "conclusions": (conclusions_report, lambda: ["figures/m0.svg"]),
