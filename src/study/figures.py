@@ -98,7 +98,9 @@ def frontier(study, board, path):
     axes.set(xscale="log", ylabel="accuracy (dB)",
              xlabel=f"seconds for 160 × 120 pixels at {part.clock / 1e6:.0f} MHz ({part.name})")
     log_axis(axes.xaxis)
-    axes.margins(0.08, 0.16)
+    # Room for labels, below and at the right.
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    axes.set(xlim=(left, right * (right / left) ** 0.12), ylim=(low - 0.16 * (high - low), high + 0.05 * (high - low)))
     save(figure, path, f"{runs.BOARDS[board]}: what accuracy costs",
          f"Mean of {listed_names(study)}. Accuracy: PSNR to double with 256 samples. Grey: nothing else is both\n"
          f"cheaper and better. Seconds: cycles as modelled, {waits} for flash.")
