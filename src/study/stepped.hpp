@@ -1,0 +1,338 @@
+// The number system of the study: double, but each step of the tracer rounds what it finds to a number of bits of its own.
+// It is no model beside the tracer. Where a step has an operation or a function of its own, that is given here for this
+// system, and the tracer's own text calls it; where several steps share an operation, the file that calls tells which it is.
+#pragma once
+
+#include <string.h>
+
+#include "../scene/builder.hpp"
+
+namespace qray::study {
+
+// The steps: name, of which quantity of a number system its result is, and what it is. Significant: its bits are not those
+// behind the point, but all from the first that is set. Lengths are scene units after the builder's scale.
+#define QRAY_STEPS(X) \
+    X(camera, Unit, "camera direction") \
+    X(coordinate, Length, "coordinates, radii") \
+    X(projection, Length, "v·d, and cones' own") \
+    X(perpendicular, Length, "perpendicular") \
+    X(root, Length, "root") \
+    X(quotient, Significant, "quotient") \
+    X(t, Length, "t") \
+    X(point, Length, "hit point") \
+    X(normal, Unit, "normal") \
+    X(mirrored, Unit, "mirrored direction") \
+    X(refracted, Unit, "refracted direction") \
+    X(light, Unit, "light's direction") \
+    X(cosine, Unit, "cosines, shares") \
+    X(power, Unit, "power") \
+    X(row, Significant, "texture's rows") \
+    X(texture, Cell, "texture coordinate") \
+    X(colour, Colour, "colour") \
+    X(weight, Unit, "weight, coefficients")
+
+enum class Step {
+#define QRAY_STEP(name, quantity, what) name,
+    QRAY_STEPS(QRAY_STEP)
+#undef QRAY_STEP
+};
+#define QRAY_ONE(name, quantity, what) +1
+inline constexpr int steps = QRAY_STEPS(QRAY_ONE);
+#undef QRAY_ONE
+
+// Doubles have so many bits behind the point where it matters: nothing is rounded.
+inline constexpr int exact = 52;
+
+// v to so many bits behind the point, to the nearest, halves up.
+struct Rounding {
+    double limit = 0, shift = 0, half = 0; // what is not below the limit has no more bits
+
+    constexpr Rounding() = default;
+    constexpr explicit Rounding(int bits)
+    {
+        if (bits >= exact)
+            return;
+        half = 0.5;
+        for (int i = 0; i < bits; i++)
+            half /= 2;
+        limit = half * 0x1p52;
+        shift = limit * 3;
+    }
+    constexpr double operator()(double v) const
+    {
+        if (!(v < limit && v > -limit))
+            return v;
+        const double even = (v + shift) - shift;
+        return v - even == half ? even + 2 * half : even;
+    }
+};
+
+// v to so many bits from the first that `like` has.
+constexpr double significant(double v, int bits, double like)
+{
+    const double size = like < 0 ? -like : like;
+    if (bits >= exact || !(size > 0x1p-500 && size < 0x1p500))
+        return v;
+    const double first = __builtin_bit_cast(double, __builtin_bit_cast(uint64_t, size) >> exact << exact);
+    return Rounding(bits - 1)(v / first) * first;
+}
+
+// What is measured at a time. Spheres and cones are block-scaled in fixed point; in a plain table they are not.
+struct Widths {
+    int bits[steps];
+    bool block_scaled = false;
+
+    constexpr explicit Widths(int all = exact)
+    {
+        for (int& b : bits)
+            b = all;
+    }
+    constexpr int& operator[](Step step) { return bits[static_cast<int>(step)]; }
+    friend constexpr bool operator==(const Widths&, const Widths&) = default;
+};
+
+// Those of a number system in fixed point.
+template <class N>
+constexpr Widths widths_of()
+{
+    // Of q16 a reciprocal and the rows of a texture.
+    constexpr int Significant = NarrowFixed<N> ? 15 : 30, Cell = exact;
+    constexpr int Length = N::Length::frac, Unit = N::Unit::frac, Colour = N::Colour::frac;
+    Widths w;
+#define QRAY_WIDTH(name, quantity, what) w[Step::name] = quantity;
+    QRAY_STEPS(QRAY_WIDTH)
+#undef QRAY_WIDTH
+    w.block_scaled = true;
+    return w;
+}
+
+inline Widths widths;
+inline Rounding roundings[steps];
+
+inline void set(const Widths& w)
+{
+    widths = w;
+    for (int i = 0; i < steps; i++)
+        roundings[i] = Rounding(w.bits[i]);
+}
+
+template <Step S>
+QRAY_INLINE double keep(double v)
+{
+    return roundings[static_cast<int>(S)](v);
+}
+template <Step S>
+QRAY_INLINE Vec<double> keep(const Vec<double>& v)
+{
+    return {keep<S>(v.x), keep<S>(v.y), keep<S>(v.z)};
+}
+
+// All that one step finds on its way is rounded like its result.
+template <Step S>
+struct Within : Double {
+    QRAY_INLINE static double unit(double v) { return keep<S>(v); }
+    QRAY_INLINE static double bent(double eta, double x) { return keep<S>(eta * x); }
+    QRAY_INLINE static double sqrt_unit(double a) { return keep<S>(Double::sqrt_unit(a)); }
+    QRAY_INLINE static bool normalise(double x, double y, double z, double& ux, double& uy, double& uz)
+    {
+        const bool is = Double::normalise(x, y, z, ux, uy, uz);
+        sharpened(ux, uy, uz);
+        return is;
+    }
+    QRAY_INLINE static void sharpen(double& x, double& y, double& z)
+    {
+        Double::sharpen(x, y, z);
+        sharpened(x, y, z);
+    }
+
+private:
+    QRAY_INLINE static void sharpened(double& x, double& y, double& z)
+    {
+        x = keep<S>(x);
+        y = keep<S>(y);
+        z = keep<S>(z);
+    }
+};
+
+struct Stepped : Double {
+    // Of what the tracer's text in that file asks for. Files are known when it is compiled.
+    QRAY_INLINE static bool is_in(const char* file, const char* room) { return __builtin_strstr(file, room) != nullptr; }
+
+    QRAY_INLINE static double length(double v, const char* file = __builtin_FILE())
+    {
+        return is_in(file, "vector/") ? keep<Step::point>(v) : keep<Step::projection>(v);
+    }
+    QRAY_INLINE static double unit(double v, const char* file = __builtin_FILE())
+    {
+        return is_in(file, "texture/") ? keep<Step::colour>(v)
+            : is_in(file, "trace/trace.") || is_in(file, "see_through") ? keep<Step::weight>(v)
+                                                                        : keep<Step::cosine>(v);
+    }
+    QRAY_INLINE static double colour(double v) { return keep<Step::colour>(v); }
+
+    QRAY_INLINE static double scaled(double v, int32_t by) { return v * static_cast<double>(1 << by); }
+    QRAY_INLINE static double fine(double v, int32_t by) { return scaled(v, by); }
+    QRAY_INLINE static double fine_sub(double a, double b, int32_t by) { return keep<Step::perpendicular>(scaled(a - b, by)); }
+    QRAY_INLINE static double coarse(double v, int32_t by, const char* file = __builtin_FILE())
+    {
+        v /= static_cast<double>(1 << by);
+        return is_in(file, "vector/") ? keep<Step::point>(v) : keep<Step::t>(v);
+    }
+    QRAY_INLINE static double coarse_above(double v, int32_t by) { return v / static_cast<double>(1 << by) + 0.125; }
+
+    QRAY_INLINE static double sqrt(double a) { return keep<Step::root>(Double::sqrt(a)); }
+    QRAY_INLINE static double root(double a) { return keep<Step::root>(Double::root(a)); }
+    QRAY_INLINE static double quotient(double v)
+    {
+        return keep<Step::t>(significant(v, widths[Step::quotient], v));
+    }
+    QRAY_INLINE static bool quotient(double num, double den, int, double& t)
+    {
+        const bool is = Double::quotient(num, den, 0, t);
+        t = quotient(t);
+        return is;
+    }
+    QRAY_INLINE static double ratio(double v, double inverse_r) { return keep<Step::normal>(Double::ratio(v, inverse_r)); }
+    QRAY_INLINE static void sharpen(double& x, double& y, double& z) { Within<Step::normal>::sharpen(x, y, z); }
+    QRAY_INLINE static double power_whole(double x, Shine e) { return keep<Step::power>(Double::power_whole(x, e)); }
+    QRAY_INLINE static double power(double x, Shine e) { return keep<Step::power>(Double::power(x, e)); }
+};
+
+static_assert(NumberSystem<Stepped> && NumberSystem<Within<Step::normal>>);
+
+// Functions that are found by what they are asked of.
+inline bool towards(const Light<Stepped>& lamp, const Point<Stepped>& q, Direction<Stepped>& l, double& distance)
+{
+    const bool is = qray::towards<Stepped>(lamp, q, l, distance);
+    l = keep<Step::light>(l);
+    return is;
+}
+inline bool towards(const Sun<Stepped>& sun, const Point<Stepped>&, Direction<Stepped>& l, double& distance)
+{
+    l = keep<Step::light>(sun.from);
+    distance = Stepped::length_max;
+    return true;
+}
+// As in fixed point, where the rounding of v.d does not reach the normal.
+inline void surface_of(const Sphere<Stepped>& s, const Corners<Stepped>& corners, const Ray<Stepped>& ray, double t,
+                       Local<Stepped> local, Point<Stepped>& point, Direction<Stepped>& n)
+{
+    local.offset -= dot<Stepped>(local.near, ray.direction);
+    qray::surface_of<Stepped>(s, corners, ray, t, local, point, n);
+}
+
+} // namespace qray::study
+
+namespace qray {
+
+// No reject: what rounding makes of a shape's edge shall show.
+template <>
+struct RejectRay<study::Stepped> {
+    explicit RejectRay(const Ray<study::Stepped>&) {}
+    static bool misses_ball(const Point<study::Stepped>&, double) { return false; }
+    static bool misses_plane(const Point<study::Stepped>&, const Direction<study::Stepped>&) { return false; }
+};
+
+// Exact in fixed point: see corners.hpp.
+template <>
+inline Sheared<study::Stepped> Shear<study::Stepped>::operator()(const Point<study::Stepped>& v) const
+{
+    const Moments m = exact(v);
+    return {m.x, m.y};
+}
+
+template <>
+inline bool Pencil<study::Stepped>::unit(Vec<double>& d) const
+{
+    return study::Within<study::Step::camera>::normalise(x, y, z, d.x, d.y, d.z);
+}
+template <>
+inline bool normalise_short<study::Stepped, double>(const Vec<double>& v, Vec<double>& u)
+{
+    return normalise_short<study::Within<study::Step::normal>>(v, u);
+}
+template <>
+inline Vec<double> mirrored<study::Stepped>(const Vec<double>& d, const Vec<double>& n, double n_d)
+{
+    return mirrored<study::Within<study::Step::mirrored>>(d, n, n_d);
+}
+template <>
+inline bool refracted<study::Stepped>(const Vec<double>& d, const Vec<double>& n, double n_d, double eta, Vec<double>& out)
+{
+    return refracted<study::Within<study::Step::refracted>>(d, n, n_d, eta, out);
+}
+template <>
+inline bool intersect_plane<study::Stepped>(double num, double den, double limit, double& t)
+{
+    if (!intersect_plane<Double>(num, den, Double::length_max, t))
+        return false;
+    t = study::Stepped::quotient(t);
+    return t > 0 && t <= limit;
+}
+template <>
+inline Vec<double> on_plane<study::Stepped>(const Vec<double>& c, const Vec<double>& normal, const Vec<double>& q)
+{
+    return study::keep<study::Step::point>(on_plane<Double>(c, normal, q));
+}
+template <>
+inline Cell<study::Stepped> LatticeAxis<study::Stepped>::split(double p)
+{
+    const Cell<Double> c = LatticeAxis<Double>::split(study::keep<study::Step::texture>(p));
+    return {c.index, c.inside};
+}
+template <>
+inline double LatticeAxis<study::Stepped>::clamped(const Vec<double>& q) const
+{
+    const double p = study::keep<study::Step::texture>(row_dot(q) + offset);
+    return p > 0 ? p < 1 ? p : 1 : 0;
+}
+
+namespace scene {
+
+// What a scene's numbers become.
+template <>
+inline double Convert<study::Stepped>::length(double v)
+{
+    return study::keep<study::Step::coordinate>(v);
+}
+template <>
+inline Vec<double> Convert<study::Stepped>::direction(const Vec3d& d)
+{
+    return study::keep<study::Step::normal>(Vec<double>{d.x, d.y, d.z});
+}
+template <>
+inline double Convert<study::Stepped>::colour(double v)
+{
+    return study::keep<study::Step::colour>(v);
+}
+template <>
+inline double Convert<study::Stepped>::eta(double v)
+{
+    return study::keep<study::Step::refracted>(v);
+}
+template <>
+inline LatticeAxis<study::Stepped> Convert<study::Stepped>::axis(const Vec3d& row, const Vec3d& origin, double scale,
+                                                                 double offset, bool wraps)
+{
+    const auto a = Convert<Double>::axis(row, origin, scale, offset, wraps);
+    const double most = fmax(fabs(a.row_x), fmax(fabs(a.row_y), fabs(a.row_z)));
+    const auto kept = [most](double v) { return study::significant(v, study::widths[study::Step::row], most); };
+    return {kept(a.row_x), kept(a.row_y), kept(a.row_z), a.inside, a.index, a.offset};
+}
+template <>
+inline Vec<double> Builder<study::Stepped>::surface(const Vec3d& c)
+{
+    return study::keep<study::Step::colour>(Vec<double>{c.x, c.y, c.z});
+}
+template <>
+inline int Builder<study::Stepped>::fine_for(double size, double most) const
+{
+    int fine = 0;
+    while (study::widths.block_scaled && fine < 10 && ldexp(size * frame.scale + 1.0 / 16, fine + 1) <= most)
+        fine++;
+    return fine;
+}
+
+} // namespace scene
+
+} // namespace qray
