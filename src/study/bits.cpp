@@ -8,6 +8,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
+#include <type_traits>
 #include <vector>
 
 namespace qray::study {
@@ -23,25 +24,38 @@ cli::Built built;
 using Picture = std::vector<uint8_t>;
 Picture truth;
 
-// Scenes have few shapes, and no tree but these say which ones rounding may make of them.
+// Where a tree would say which shapes a ray meets, what rounding makes of their edges would not show. It is taken for
+// what is too large without: nearly all are triangles then, and the inside of these is exact.
+constexpr uint32_t few_objects = 200;
+template <bool Tree>
 constexpr Effects stepped_effects()
 {
     Effects e = scene::desktop_effects();
-    e.tree = e.grid = e.adaptive = false;
+    e.tree = Tree;
+    e.grid = e.adaptive = false;
     return e;
 }
 
-void round_coefficients(scene::Storage<Stepped>& s)
+// What a scene says of its materials and its lights.
+void round_tables(scene::Storage<Stepped>& s)
 {
-    const auto all = [](auto& table, auto member) {
+    const auto all = []<Step S, class T, class M>(std::integral_constant<Step, S>, scene::Array<T>& table, M T::*member) {
         for (uint32_t i = 0; i < table.count; i++)
-            table.data[i].*member = keep<Step::weight>(table.data[i].*member);
+            table.data[i].*member = keep<S>(table.data[i].*member);
     };
-    all(s.mattes, &Matte<Stepped>::diffuse);
-    all(s.highlights, &Highlight<Stepped>::amount);
-    all(s.mirrors, &Mirror<Stepped>::amount);
-    all(s.transmits, &Transmit<Stepped>::amount);
+    constexpr std::integral_constant<Step, Step::weight> weight;
+    constexpr std::integral_constant<Step, Step::colour> colour;
+    all(weight, s.mattes, &Matte<Stepped>::diffuse);
+    all(weight, s.highlights, &Highlight<Stepped>::amount);
+    all(weight, s.mirrors, &Mirror<Stepped>::amount);
+    all(weight, s.transmits, &Transmit<Stepped>::amount);
     s.cutoff = keep<Step::weight>(s.cutoff);
+    all(colour, s.mattes, &Matte<Stepped>::ambient);
+    all(colour, s.even_lights, &EvenLight<Stepped>::light);
+#define QRAY_ROUND(Type, name, table) all(colour, s.table, &Type<Stepped>::colour);
+    QRAY_LIGHTS(QRAY_ROUND)
+#undef QRAY_ROUND
+    s.background = keep<Step::colour>(s.background);
 }
 
 bool draw(const cli::Renderer& renderer, Picture& rgb)
@@ -63,10 +77,12 @@ bool draw(const Widths& with, Picture& rgb)
     if (!cli::make_room(s.room, s.lay_out(description, false))
         || !scene::Builder<Stepped>(description, options.settings, s).build(error))
         return false;
-    round_coefficients(s);
+    round_tables(s);
     rgb.resize(truth.size());
     cli::RayCounts counts;
-    cli::rows_of<Stepped, stepped_effects()>(0, s.camera.height, rgb.data(), counts);
+    const auto rows = description.object_count > few_objects ? cli::rows_of<Stepped, stepped_effects<true>()>
+                                                             : cli::rows_of<Stepped, stepped_effects<false>()>;
+    rows(0, s.camera.height, rgb.data(), counts);
     return true;
 }
 
@@ -93,8 +109,8 @@ int64_t squares(Step step, int bits)
 template <class N>
 void print_number(cli::Number number)
 {
-    const Widths own = widths_of<N>();
     const int64_t reached = squares(*cli::renderers[static_cast<int>(number)]);
+    const Widths own = widths_of<N>(cli::storage_of<N>().exposure);
     printf("\"%s\": {\"reached\": %" PRId64 ", \"together\": %" PRId64, cli::number_names[static_cast<int>(number)], reached,
            reached < 0 ? -1 : squares(own));
     for (int i = 0; i < steps && reached >= 0; i++) {

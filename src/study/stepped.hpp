@@ -3,42 +3,10 @@
 // system, and the tracer's own text calls it; where several steps share an operation, the file that calls tells which it is.
 #pragma once
 
-#include <string.h>
-
 #include "../scene/builder.hpp"
+#include "steps.hpp"
 
 namespace qray::study {
-
-// The steps: name, of which quantity of a number system its result is, and what it is. Significant: its bits are not those
-// behind the point, but all from the first that is set. Lengths are scene units after the builder's scale.
-#define QRAY_STEPS(X) \
-    X(camera, Unit, "camera direction") \
-    X(coordinate, Length, "coordinates, radii") \
-    X(projection, Length, "v·d, and cones' own") \
-    X(perpendicular, Length, "perpendicular") \
-    X(root, Length, "root") \
-    X(quotient, Significant, "quotient") \
-    X(t, Length, "t") \
-    X(point, Length, "hit point") \
-    X(normal, Unit, "normal") \
-    X(mirrored, Unit, "mirrored direction") \
-    X(refracted, Unit, "refracted direction") \
-    X(light, Unit, "light's direction") \
-    X(cosine, Unit, "cosines, shares") \
-    X(power, Unit, "power") \
-    X(row, Significant, "texture's rows") \
-    X(texture, Cell, "texture coordinate") \
-    X(colour, Colour, "colour") \
-    X(weight, Unit, "weight, coefficients")
-
-enum class Step {
-#define QRAY_STEP(name, quantity, what) name,
-    QRAY_STEPS(QRAY_STEP)
-#undef QRAY_STEP
-};
-#define QRAY_ONE(name, quantity, what) +1
-inline constexpr int steps = QRAY_STEPS(QRAY_ONE);
-#undef QRAY_ONE
 
 // Doubles have so many bits behind the point where it matters: nothing is rounded.
 inline constexpr int exact = 52;
@@ -91,13 +59,14 @@ struct Widths {
     friend constexpr bool operator==(const Widths&, const Widths&) = default;
 };
 
-// Those of a number system in fixed point.
+// Those of a number system in fixed point, whose colours are stored divided by 2^exposure.
 template <class N>
-constexpr Widths widths_of()
+constexpr Widths widths_of(int exposure)
 {
-    // Of q16 a reciprocal and the rows of a texture.
+    // In 32 bits, reciprocals and the rows of textures have 15; texture coordinates have more bits than these say.
     constexpr int Significant = NarrowFixed<N> ? 15 : 30, Cell = exact;
-    constexpr int Length = N::Length::frac, Unit = N::Unit::frac, Colour = N::Colour::frac;
+    constexpr int Length = N::Length::frac, Unit = N::Unit::frac;
+    const int Colour = N::Colour::frac - exposure;
     Widths w;
 #define QRAY_WIDTH(name, quantity, what) w[Step::name] = quantity;
     QRAY_STEPS(QRAY_WIDTH)
@@ -274,6 +243,15 @@ inline Vec<double> on_plane<study::Stepped>(const Vec<double>& c, const Vec<doub
 {
     return study::keep<study::Step::point>(on_plane<Double>(c, normal, q));
 }
+// Colours are often round decimals, whose 255-fold ends on a half. As in fixed point, those that rounding left up to 4 steps
+// below it count as on it, but where that would be seen.
+template <>
+inline uint8_t Sample<study::Stepped>::byte(double v)
+{
+    const int bits = study::widths[study::Step::colour];
+    return static_cast<uint8_t>((bits < 20 ? v : v + 8 * study::Rounding(bits).half + 0x1p-50) * 255 + 0.5);
+}
+
 template <>
 inline Cell<study::Stepped> LatticeAxis<study::Stepped>::split(double p)
 {
@@ -299,11 +277,6 @@ template <>
 inline Vec<double> Convert<study::Stepped>::direction(const Vec3d& d)
 {
     return study::keep<study::Step::normal>(Vec<double>{d.x, d.y, d.z});
-}
-template <>
-inline double Convert<study::Stepped>::colour(double v)
-{
-    return study::keep<study::Step::colour>(v);
 }
 template <>
 inline double Convert<study::Stepped>::eta(double v)
