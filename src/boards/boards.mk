@@ -117,7 +117,7 @@ run: $(FW_ELF) $(if $(filter uart,$(OUTPUT)),$(FW_ELF:.elf=.hex)) | firmware-qem
 size: $(FW_ELF)
 	@$(FW_REPORT)
 describe:
-	@echo '{"tools": "$(BOARD_TOOLS)", "cpu": "$(BOARD_CPU)", "optimise": "$(BOARD_OPTIMISE)", "qemu": "$(BOARD_QEMU)"}'
+	@echo '{"tools": "$(BOARD_TOOLS)", "cpu": "$(BOARD_CPU)", "optimise": "$(BOARD_OPTIMISE)", "qemu": "$(BOARD_QEMU)", "tick": $(BOARD_TICK)}'
 profile: $(FW_ELF) | firmware-qemu
 	@python3 $(FW_SRC)/common/profile.py --tools $(BOARD_TOOLS) --qemu '$(BOARD_QEMU)' $(FW_ELF)
 

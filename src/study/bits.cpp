@@ -8,7 +8,6 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include <type_traits>
 #include <vector>
 
 namespace qray::study {
@@ -23,40 +22,7 @@ cli::Built built;
 
 using Picture = std::vector<uint8_t>;
 Picture truth;
-
-// Where a tree would say which shapes a ray meets, what rounding makes of their edges would not show. It is taken for
-// what is too large without: nearly all are triangles then, and the inside of these is exact.
-constexpr uint32_t few_objects = 200;
-template <bool Tree>
-constexpr Effects stepped_effects()
-{
-    Effects e = scene::desktop_effects();
-    e.tree = Tree;
-    e.grid = e.adaptive = false;
-    return e;
-}
-
-// What a scene says of its materials and its lights.
-void round_tables(scene::Storage<Stepped>& s)
-{
-    const auto all = []<Step S, class T, class M>(std::integral_constant<Step, S>, scene::Array<T>& table, M T::*member) {
-        for (uint32_t i = 0; i < table.count; i++)
-            table.data[i].*member = keep<S>(table.data[i].*member);
-    };
-    constexpr std::integral_constant<Step, Step::weight> weight;
-    constexpr std::integral_constant<Step, Step::colour> colour;
-    all(weight, s.mattes, &Matte<Stepped>::diffuse);
-    all(weight, s.highlights, &Highlight<Stepped>::amount);
-    all(weight, s.mirrors, &Mirror<Stepped>::amount);
-    all(weight, s.transmits, &Transmit<Stepped>::amount);
-    s.cutoff = keep<Step::weight>(s.cutoff);
-    all(colour, s.mattes, &Matte<Stepped>::ambient);
-    all(colour, s.even_lights, &EvenLight<Stepped>::light);
-#define QRAY_ROUND(Type, name, table) all(colour, s.table, &Type<Stepped>::colour);
-    QRAY_LIGHTS(QRAY_ROUND)
-#undef QRAY_ROUND
-    s.background = keep<Step::colour>(s.background);
-}
+bool first_number = true;
 
 bool draw(const cli::Renderer& renderer, Picture& rgb)
 {
@@ -86,6 +52,15 @@ bool draw(const Widths& with, Picture& rgb)
     return true;
 }
 
+template <class F>
+void print_list(int count, F f)
+{
+    for (int i = 0; i < count; i++)
+        printf("%s%" PRId64, i == 0 ? "[" : ", ", int64_t{f(i)});
+    putchar(']');
+}
+
+// Of the differences to the true picture; -1 where there is no other.
 template <class With>
 int64_t squares(const With& with)
 {
@@ -109,40 +84,45 @@ int64_t squares(Step step, int bits)
 template <class N>
 void print_number(cli::Number number)
 {
+    const char* const name = cli::number_names[static_cast<int>(number)];
     const int64_t reached = squares(*cli::renderers[static_cast<int>(number)]);
+    if (reached < 0)
+        return;
     const Widths own = widths_of<N>(cli::storage_of<N>().exposure);
-    printf("\"%s\": {\"reached\": %" PRId64 ", \"together\": %" PRId64, cli::number_names[static_cast<int>(number)], reached,
-           reached < 0 ? -1 : squares(own));
-    for (int i = 0; i < steps && reached >= 0; i++) {
+    printf("%s\"%s\": {\"reached\": %" PRId64 ", \"together\": %" PRId64 ", \"alone\": ", first_number ? "" : ", ", name, reached,
+           squares(own));
+    first_number = false;
+    print_list(steps, [&own](int i) {
         Widths w = own;
         for (int k = 0; k < steps; k++)
             w.bits[k] = k == i ? own.bits[k] : exact;
-        printf(", \"%d\": %" PRId64, i, squares(w));
-    }
+        return squares(w);
+    });
     putchar('}');
 }
 
 void print_steps()
 {
-    const char* const names[] = {
-#define QRAY_NAME(name, quantity, what) #name,
+    constexpr const char* names[][3] = {
+#define QRAY_NAME(name, quantity, what) {#name, #quantity, what},
         QRAY_STEPS(QRAY_NAME)
 #undef QRAY_NAME
     };
-    printf("\"steps\": {");
-    for (int i = 0; i < steps; i++) {
-        printf("%s\"%s\": [", i ? ", " : "", names[i]);
-        const Step step{i};
-        const int64_t most = squares(step, least_bits);
-        printf("%" PRId64, most);
-        for (int bits = least_bits + bits_step; bits <= most_bits; bits += bits_step)
-            printf(", %" PRId64, most == 0 ? 0 : squares(step, bits)); // else the scene has no such step
-        putchar(']');
+    constexpr int count = (most_bits - least_bits) / bits_step + 1;
+    const auto bits = [](int i) { return least_bits + i * bits_step; };
+    printf("\"bits\": ");
+    print_list(count, bits);
+    printf(", \"steps\": [");
+    for (int step = 0; step < steps; step++) {
+        const auto& [name, quantity, what] = names[step];
+        printf("%s{\"name\": \"%s\", \"of\": \"%s\", \"what\": \"%s\", \"squares\": ", step == 0 ? "" : ", ", name, quantity,
+               what);
+        const int64_t most = squares(Step{step}, least_bits); // if 0, the scene has no such step
+        print_list(count, [=](int i) { return i == 0 || most == 0 ? most : squares(Step{step}, bits(i)); });
+        putchar('}');
     }
-    printf("}, \"together\": [");
-    for (int bits = least_bits; bits <= most_bits; bits += bits_step)
-        printf("%s%" PRId64, bits > least_bits ? ", " : "", squares(Widths(bits)));
-    putchar(']');
+    printf("], \"together\": ");
+    print_list(count, [=](int i) { return squares(Widths(bits(i))); });
 }
 
 int run(int argc, char** argv)
@@ -156,11 +136,10 @@ int run(int argc, char** argv)
         return cli::bad_options("%s", error.text);
     if (!draw(cli::double_renderer, truth))
         return cli::bad_options("%s: no picture", options.scene);
-    printf("{\"levels\": %zu, \"exact\": %" PRId64 ", ", truth.size(), squares(Widths()));
+    printf("{\"levels\": %zu, ", truth.size());
     print_steps();
     printf(", \"numbers\": {");
     print_number<q16>(cli::Number::q16);
-    printf(", ");
     print_number<q32>(cli::Number::q32);
     puts("}}");
     return 0;

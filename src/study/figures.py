@@ -200,6 +200,35 @@ def panel(study, path):
     save(figure, path, "The showcase in each number system, and how far it is off")
 
 
+def steps(b, path):
+    """Of bits.py: accuracy by step and bits, and the bits that each scene needs of each step."""
+    figure, (left, right) = plt.subplots(1, 2, figsize=(13, 6.2))
+    what = [s["what"] for s in b.steps]
+
+    def heat(axes, rows, columns, values, text, **options):
+        shown = axes.imshow(values, aspect="auto", **options)
+        for y, row in enumerate(values):
+            for x, value in enumerate(row):
+                if value == value:
+                    dark = shown.norm(value) < 0.5
+                    axes.text(x, y, text(value), ha="center", va="center", fontsize=7, color="white" if dark else "black")
+        axes.set_xticks(range(len(columns)), columns)
+        axes.set_yticks(range(len(rows)), rows)
+        axes.grid(False)
+
+    nothing = [math.nan] * len(b.bits)
+    medians = [b.median(b.at[n]) if b.at[n] else nothing for n in b.names] + [b.median(b.together)]
+    heat(left, [*what, "all together"], b.bits, medians, lambda v: f"{v:.0f}", cmap="viridis", vmin=20, vmax=99)
+    left.set(title="dB, median of scenes", xlabel="bits")
+    most = b.bits[-1] + 2
+    needed = [[(b.needed(b.at[n][scene]) or most) if scene in b.at[n] else math.nan for scene in b.found] for n in b.names]
+    heat(right, [], [name_of(s) for s in b.found], needed, lambda v: f"{v}" if v < most else ">", cmap="magma", vmin=4, vmax=most)
+    right.set_title("bits for 60 dB, by scene")
+    right.tick_params(axis="x", rotation=90)
+    save(figure, path, "What each bit of each step buys",
+         f"One step rounds, all else is double; PSNR to double, {b.size} pixels. Left blank: the scene has no such step.")
+
+
 def growth(lines, path):
     """Instructions a ray against shapes: {(board, number): {shapes: instructions}}."""
     figure, axes = plt.subplots(figsize=(7.6, 4.6))

@@ -9,6 +9,7 @@ import re
 import sys
 
 sys.dont_write_bytecode = True
+import bits  # noqa: E402
 import growth  # noqa: E402
 import ladder  # noqa: E402
 import radiosity  # noqa: E402
@@ -60,6 +61,7 @@ REPORTS = {
     "boards": (boards, lambda: list(BOARD_SCENES) + [f"| {short} | {n} |" for short in runs.BOARDS.values()
                                                      for n in runs.numbers()]),
     **texts.REPORTS,
+    **bits.REPORTS,
     **growth.REPORTS,
     **radiosity.REPORTS,
     **soft.REPORTS,

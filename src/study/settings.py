@@ -34,7 +34,7 @@ def boards():
 
 @functools.cache
 def board_facts(board):
-    """What its board.mk says: {tools, cpu, optimise, qemu}."""
+    """What its board.mk says: {tools, cpu, optimise, qemu, tick}."""
     return json.loads(output_of("make", "-s", "describe", f"BOARD={board}"))
 
 

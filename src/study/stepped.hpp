@@ -3,6 +3,10 @@
 // system, and the tracer's own text calls it; where several steps share an operation, the file that calls tells which it is.
 #pragma once
 
+#include <qray/picture/render.hpp>
+
+#include <type_traits>
+
 #include "../scene/builder.hpp"
 #include "steps.hpp"
 
@@ -309,3 +313,41 @@ inline int Builder<study::Stepped>::fine_for(double size, double most) const
 } // namespace scene
 
 } // namespace qray
+
+namespace qray::study {
+
+// Where a tree would say which shapes a ray meets, what rounding makes of their edges would not show. It is taken for
+// what is too large without: nearly all are triangles then, and the inside of these is exact.
+inline constexpr uint32_t few_objects = 200;
+template <bool Tree>
+constexpr Effects stepped_effects()
+{
+    Effects e = scene::desktop_effects();
+    e.tree = Tree;
+    e.grid = e.adaptive = false;
+    return e;
+}
+
+// What a scene says of its materials and its lights.
+inline void round_tables(scene::Storage<Stepped>& s)
+{
+    const auto all = []<Step S, class T, class M>(std::integral_constant<Step, S>, scene::Array<T>& table, M T::*member) {
+        for (uint32_t i = 0; i < table.count; i++)
+            table.data[i].*member = keep<S>(table.data[i].*member);
+    };
+    constexpr std::integral_constant<Step, Step::weight> weight;
+    constexpr std::integral_constant<Step, Step::colour> colour;
+    all(weight, s.mattes, &Matte<Stepped>::diffuse);
+    all(weight, s.highlights, &Highlight<Stepped>::amount);
+    all(weight, s.mirrors, &Mirror<Stepped>::amount);
+    all(weight, s.transmits, &Transmit<Stepped>::amount);
+    s.cutoff = keep<Step::weight>(s.cutoff);
+    all(colour, s.mattes, &Matte<Stepped>::ambient);
+    all(colour, s.even_lights, &EvenLight<Stepped>::light);
+#define QRAY_ROUND(Type, name, table) all(colour, s.table, &Type<Stepped>::colour);
+    QRAY_LIGHTS(QRAY_ROUND)
+#undef QRAY_ROUND
+    s.background = keep<Step::colour>(s.background);
+}
+
+} // namespace qray::study

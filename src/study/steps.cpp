@@ -115,6 +115,9 @@ int main()
     };
     set(operands.pencil, operands.axis);
     board::start_ticks();
+    board::say("calls: ");
+    board::say_hex(calls);
+    board::say("\n");
     measure<Calls::nothing>("nothing");
 #define QRAY_MEASURE(name, quantity, what) measure<Calls::name>(#name);
     QRAY_STEPS(QRAY_MEASURE)

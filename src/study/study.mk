@@ -11,11 +11,13 @@ build/study/%: build/obj/$(STUDY)/%.o $(filter-out %/main.o,$(COMMAND))
 	@mkdir -p $(@D)
 	@$(CXX) $(OPTIMISE) $(STATIC) $^ -pthread -o $@
 
-TEST_NEEDS += $(MEASURE)
+BITS    := build/study/bits
 
-report: build/qray build/oracle $(MEASURE)
+TEST_NEEDS += $(MEASURE) $(BITS)
+
+report: build/qray build/oracle $(MEASURE) $(BITS)
 	@$(PYTHON) $(STUDY)/report.py $(REPORT)
-study: build/qray $(MEASURE)
+study: build/qray $(MEASURE) $(BITS)
 	@$(PYTHON) $(STUDY)/study.py $(if $(QUICK),quick)
 plan: build/qray $(MEASURE)
 	@$(PYTHON) $(STUDY)/plan.py SCENE='$(SCENE)' BOARD='$(BOARD)' SIZE='$(SIZE)' CUTOFF='$(CUTOFF)' MHZ='$(MHZ)' WAITS='$(WAITS)' \

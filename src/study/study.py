@@ -13,6 +13,7 @@ import subprocess
 import sys
 
 sys.dont_write_bytecode = True
+import bits  # noqa: E402
 import figures  # noqa: E402
 import pictures  # noqa: E402
 import runs  # noqa: E402
@@ -187,6 +188,7 @@ def main():
     quick = sys.argv[1:] == ["quick"]
     study = run(quick)
     study.draw(study.folder)
+    bits.study(study.folder)
     print(f"{len(study.rows)} settings of boards in {study.folder}/boards.csv; plots beside it")
 
 
