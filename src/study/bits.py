@@ -19,7 +19,7 @@ from text import FIGURES, count, listed, table
 sys.path.insert(0, "src/boards/common")
 import run as boards_run  # noqa: E402
 
-SIZE, TARGET = "160x120", 60
+SIZE, TARGET = "320x240", 60
 COSTS = ["microbit", "mps2_an385"]
 PROGRAM, FOLDER = "build/study/bits", "build/study/bits-of"
 

@@ -1,0 +1,127 @@
+// The number system of the study, which rounds each step of the tracer by itself.
+#include "scene_helpers.hpp"
+
+#include "../src/study/stepped.hpp"
+#include "random.hpp"
+
+#include <fstream>
+#include <iterator>
+
+namespace {
+
+using namespace qray;
+using namespace qray::test;
+using study::Rounding;
+using study::Step;
+using study::Stepped;
+using study::Widths;
+
+TEST(Rounding, IsToTheNearestHalvesUp)
+{
+    // k / 2^24 to 2^-10, in integers: floor((k + 2^13) / 2^14).
+    const Rounding ten(10);
+    SplitMix random{1};
+    for (int i = 0; i < 100000; i++) {
+        const int64_t k = static_cast<int64_t>(random.bits()) >> 33;
+        EXPECT_EQ(ten(std::ldexp(static_cast<double>(k), -24)), std::ldexp(static_cast<double>((k + (1 << 13)) >> 14), -10)) << k;
+    }
+    const Rounding four(4);
+    EXPECT_EQ(four(0.5 / 16), 1.0 / 16);
+    EXPECT_EQ(four(-0.5 / 16), 0);
+    EXPECT_EQ(four(1.5 / 16), 2.0 / 16);
+    EXPECT_EQ(four(-1.5 / 16), -1.0 / 16);
+    EXPECT_EQ(Rounding(0)(2.5), 3);
+}
+
+TEST(Rounding, LeavesWhatHasNoMoreBits)
+{
+    const double all[] = {0.1, -1e300, 0x1p52 + 1, INFINITY, 3.0000000000000004};
+    for (double v : all)
+        EXPECT_EQ(Rounding(study::exact)(v), v);
+    const double even[] = {0x1p51, -0x1p49, 1e300, INFINITY, -INFINITY, 40.25};
+    for (double v : even)
+        EXPECT_EQ(Rounding(2)(v), v);
+    EXPECT_TRUE(std::signbit(Rounding(study::exact)(-0.0)));
+    EXPECT_TRUE(std::isnan(Rounding(10)(NAN)));
+}
+
+TEST(Rounding, OfSignificantBitsGoesWithTheFirst)
+{
+    EXPECT_EQ(study::significant(1 + 0x1p-15, 15, 1), 1 + 0x1p-14); // half a step of 2^-14
+    EXPECT_EQ(study::significant(1 + 0x1p-16, 15, 1), 1);
+    EXPECT_EQ(study::significant(100.3, 8, 100.3), 100.5); // steps of 2^-1 from 64 on
+    EXPECT_EQ(study::significant(0.3, 8, 100.3), 0.5);     // as large ones have them
+    EXPECT_EQ(study::significant(-0x1.23p-30, 5, 0x1p-30), -0x1.2p-30);
+    EXPECT_EQ(study::significant(0, 5, 0), 0);
+    EXPECT_EQ(study::significant(0.1, study::exact, 0.1), 0.1);
+}
+
+Picture stepped(const std::string& text, const Widths& widths)
+{
+    study::set(widths);
+    EXPECT_TRUE(loaded<Stepped>(text));
+    study::round_tables(storage<Stepped>());
+    return draw<Stepped, study::stepped_effects<false>()>();
+}
+
+// Of scenes/, in a size.
+std::string scene_of(const std::string& name, const std::string& size)
+{
+    std::ifstream file("scenes/" + name + ".nff");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const size_t at = text.find("resolution ");
+    return text.substr(0, at) + "resolution " + size + text.substr(text.find('\n', at));
+}
+
+TEST(Stepped, IsDoubleWhereNothingIsRounded)
+{
+    for (const char* name : {"glass", "showcase", "castle"}) {
+        const std::string text = scene_of(name, "32 24");
+        ASSERT_TRUE(loaded<Double>(text));
+        EXPECT_EQ(stepped(text, Widths()), draw<Double>()) << name;
+    }
+}
+
+TEST(Stepped, RoundsColours)
+{
+    // 0.3 is 4.8 / 16, 0.6 is 9.6 / 16 and 9 / 32 is half way from 4 / 16 to 5 / 16.
+    const std::string text = "v from 0 0 5 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 1 1\n b 0.3 0.6 0.28125\n";
+    Widths w;
+    EXPECT_EQ(stepped(text, w).rgb, (std::vector<uint8_t>{77, 153, 72}));
+    w[Step::colour] = 4;
+    EXPECT_EQ(stepped(text, w).rgb, (std::vector<uint8_t>{80, 159, 80})); // 5, 10 and 5 / 16 of 255, to the nearest
+}
+
+TEST(Stepped, RoundsCoordinates)
+{
+    // Seen from 31 units above, a line between white and black lies at x = 0.3, and with one bit behind the point at 0.5;
+    // scaled by 1/2, as the polygon's coordinates reach beyond 62, at 1.
+    for (const auto& [far, edge] : {std::pair{20, 0.5}, {70, 1.0}}) {
+        char text[300];
+        snprintf(text, sizeof text,
+                 "v from 0 0 31 at 0 0 0 up 0 1 0 angle %.17g hither 1 resolution 40 1\n ambientlight 1 1 1\n"
+                 "material colour 1 1 1 ambient 1 diffuse 0\n p 4 0.3 -%d 0 %d -%d 0 %d %d 0 0.3 %d 0\n",
+                 std::atan(0.05 / 31) * 360 / M_PI, far, far, far, far, far, far);
+        Widths w;
+        w[Step::coordinate] = 1;
+        const Picture exact = stepped(text, Widths()), coarse = stepped(text, w);
+        for (uint32_t i = 0; i < 40; i++) {
+            const double x = (i + 0.5) * 0.1 - 2; // of the pixel's middle
+            EXPECT_EQ(exact.at(i, 0).r, x > 0.3 ? 255 : 0) << x;
+            EXPECT_EQ(coarse.at(i, 0).r, x > edge ? 255 : 0) << x << " " << far;
+        }
+    }
+}
+
+TEST(Stepped, ReachesEachStep)
+{
+    const std::string text = scene_of("glass", "40 30");
+    const Picture exact = stepped(text, Widths());
+    for (int step = 0; step < study::steps; step++) {
+        Widths w;
+        w.bits[step] = 3;
+        EXPECT_FALSE(stepped(text, w) == exact) << step;
+    }
+}
+
+} // namespace
