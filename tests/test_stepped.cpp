@@ -92,22 +92,23 @@ TEST(Stepped, RoundsColours)
     EXPECT_EQ(stepped(text, w).rgb, (std::vector<uint8_t>{80, 159, 80})); // 5, 10 and 5 / 16 of 255, to the nearest
 }
 
-TEST(Stepped, RoundsCoordinates)
+TEST(Stepped, RoundsCoordinatesAfterTheBuildersScale)
 {
-    // Seen from 31 units above, a line between white and black lies at x = 0.3, and with one bit behind the point at 0.5;
-    // scaled by 1/2, as the polygon's coordinates reach beyond 62, at 1.
+    // Black between two white figures from x = -0.6 to 0.6; with one bit behind the point from -0.5 to 0.5, and where what is
+    // larger than 62 is scaled by 1/2, which makes them +-0.3, from -1 to 1.
     for (const auto& [far, edge] : {std::pair{20, 0.5}, {70, 1.0}}) {
-        char text[300];
+        char text[400];
         snprintf(text, sizeof text,
-                 "v from 0 0 31 at 0 0 0 up 0 1 0 angle %.17g hither 1 resolution 40 1\n ambientlight 1 1 1\n"
-                 "material colour 1 1 1 ambient 1 diffuse 0\n p 4 0.3 -%d 0 %d -%d 0 %d %d 0 0.3 %d 0\n",
-                 std::atan(0.05 / 31) * 360 / M_PI, far, far, far, far, far, far);
+                 "v from 0 0 32 at 0 0 0 up 0 1 0 angle %.17g hither 1 resolution 40 1\n ambientlight 1 1 1\n"
+                 "material colour 1 1 1 ambient 1 diffuse 0\n p 4 0.6 -%d 0 %d -%d 0 %d %d 0 0.6 %d 0\n"
+                 "p 4 -0.6 -%d 0 -%d -%d 0 -%d %d 0 -0.6 %d 0\n",
+                 std::atan(0.05 / 32) * 360 / M_PI, far, far, far, far, far, far, far, far, far, far, far, far);
         Widths w;
         w[Step::coordinate] = 1;
         const Picture exact = stepped(text, Widths()), coarse = stepped(text, w);
         for (uint32_t i = 0; i < 40; i++) {
-            const double x = (i + 0.5) * 0.1 - 2; // of the pixel's middle
-            EXPECT_EQ(exact.at(i, 0).r, x > 0.3 ? 255 : 0) << x;
+            const double x = std::fabs((i + 0.5) * 0.1 - 2); // of the pixel's middle
+            EXPECT_EQ(exact.at(i, 0).r, x > 0.6 ? 255 : 0) << x;
             EXPECT_EQ(coarse.at(i, 0).r, x > edge ? 255 : 0) << x << " " << far;
         }
     }

@@ -1,4 +1,4 @@
-// What each bit of each step buys (stepped.hpp), as JSON: sums of squared differences to the picture in double.
+// What each bit of each step buys (stepped.hpp), as JSON: squared differences to the picture in double.
 //   bits OPTIONS SCENE     options of qray
 #include "../cli/draw.hpp"
 #include "../cli/input.hpp"
@@ -7,6 +7,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include <vector>
 
@@ -52,46 +53,59 @@ bool draw(const Widths& with, Picture& rgb)
     return true;
 }
 
-template <class F>
-void print_list(int count, F f)
-{
-    for (int i = 0; i < count; i++)
-        printf("%s%" PRId64, i == 0 ? "[" : ", ", int64_t{f(i)});
-    putchar(']');
-}
+// Squared differences to the true picture: of bytes that are off by up to 2, and of others, which show something else.
+struct Squares {
+    int64_t shade = 0, other = 0;
+};
 
-// Of the differences to the true picture; -1 where there is no other.
 template <class With>
-int64_t squares(const With& with)
+Squares squares(const With& with)
 {
     static Picture rgb;
+    Squares sum;
     if (!draw(with, rgb))
-        return -1;
-    int64_t sum = 0;
-    for (size_t i = 0; i < rgb.size(); i++)
-        sum += (rgb[i] - truth[i]) * (rgb[i] - truth[i]);
+        abort(); // it was drawn before, or its number system holds it
+    for (size_t i = 0; i < rgb.size(); i++) {
+        const int off = rgb[i] - truth[i];
+        (off * off <= 4 ? sum.shade : sum.other) += off * off;
+    }
     return sum;
 }
 
-int64_t squares(Step step, int bits)
+Squares squares(Step step, int bits)
 {
     Widths w;
     w[step] = bits;
     return squares(w);
 }
 
+void print(int bits) { printf("%d", bits); }
+void print(const Squares& s) { printf("[%" PRId64 ", %" PRId64 "]", s.shade, s.other); }
+template <class F>
+void print_list(int count, F f)
+{
+    for (int i = 0; i < count; i++) {
+        putchar(i == 0 ? '[' : ',');
+        print(f(i));
+    }
+    putchar(']');
+}
+
 // What a number system reaches, and what its widths say: all steps rounded at once, and each alone.
 template <class N>
 void print_number(cli::Number number)
 {
-    const char* const name = cli::number_names[static_cast<int>(number)];
-    const int64_t reached = squares(*cli::renderers[static_cast<int>(number)]);
-    if (reached < 0)
+    const cli::Renderer& renderer = *cli::renderers[static_cast<int>(number)];
+    scene::Error error;
+    if (!renderer.build(description, options.settings, built, error))
         return;
-    const Widths own = widths_of<N>(cli::storage_of<N>().exposure);
-    printf("%s\"%s\": {\"reached\": %" PRId64 ", \"together\": %" PRId64 ", \"alone\": ", first_number ? "" : ", ", name, reached,
-           squares(own));
+    printf("%s\"%s\": {\"reached\": ", first_number ? "" : ", ", cli::number_names[static_cast<int>(number)]);
     first_number = false;
+    print(squares(renderer));
+    const Widths own = widths_of<N>(cli::storage_of<N>().exposure);
+    printf(", \"together\": ");
+    print(squares(own));
+    printf(", \"alone\": ");
     print_list(steps, [&own](int i) {
         Widths w = own;
         for (int k = 0; k < steps; k++)
@@ -117,8 +131,8 @@ void print_steps()
         const auto& [name, quantity, what] = names[step];
         printf("%s{\"name\": \"%s\", \"of\": \"%s\", \"what\": \"%s\", \"squares\": ", step == 0 ? "" : ", ", name, quantity,
                what);
-        const int64_t most = squares(Step{step}, least_bits); // if 0, the scene has no such step
-        print_list(count, [=](int i) { return i == 0 || most == 0 ? most : squares(Step{step}, bits(i)); });
+        const Squares most = squares(Step{step}, least_bits); // if 0, the scene has no such step
+        print_list(count, [&](int i) { return i == 0 || most.shade + most.other == 0 ? most : squares(Step{step}, bits(i)); });
         putchar('}');
     }
     printf("], \"together\": ");

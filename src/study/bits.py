@@ -5,8 +5,10 @@ import concurrent.futures
 import csv
 import glob
 import json
+import math
 import os
 import statistics
+import subprocess
 import sys
 
 import figures
@@ -51,13 +53,13 @@ class Bits:
     def __init__(self, scenes, size):
         self.size, self.found = size, measured(scenes, size)
         first = next(iter(self.found.values()))
-        self.bits, self.steps = first["bits"], [{**s, "squares": None} for s in first["steps"]]
+        self.bits, self.steps = first["bits"], first["steps"]
         self.names = [s["name"] for s in self.steps]
         self.numbers = list(dict.fromkeys(n for f in self.found.values() for n in f["numbers"]))
-        self.at = {name: {scene: [self.decibels(scene, v) for v in f["steps"][i]["squares"]]
-                          for scene, f in self.found.items() if f["steps"][i]["squares"][0]}
+        self.at = {name: {scene: [self.decibels(scene, sum(v)) for v in f["steps"][i]["squares"]]
+                          for scene, f in self.found.items() if any(f["steps"][i]["squares"][0])}
                    for i, name in enumerate(self.names)}
-        self.together = {scene: [self.decibels(scene, v) for v in f["together"]] for scene, f in self.found.items()}
+        self.together = {scene: [self.decibels(scene, sum(v)) for v in f["together"]] for scene, f in self.found.items()}
 
     def decibels(self, scene, squares):
         return pictures.decibels(squares / self.found[scene]["levels"])
@@ -81,9 +83,12 @@ class Bits:
         return (statistics.median_high(own), max(own)) if own else (None, None)
 
     def predicted(self, scene, number):
-        """Decibels: (reached, all steps rounded together, the sum of each alone)."""
+        """Decibels: (reached, all steps rounded together, the sum of each alone). Squares of shades are added. Where edges
+        move, their squares grow with how far, and ways that know nothing of each other add up to the root of their squares."""
         n = self.found[scene]["numbers"][number]
-        return tuple(self.decibels(scene, v) for v in (n["reached"], n["together"], sum(n["alone"])))
+        shades, others = zip(*n["alone"])
+        added = sum(shades) + math.hypot(*others)
+        return tuple(self.decibels(scene, v) for v in (sum(n["reached"]), sum(n["together"]), added))
 
     def agree(self, number, kind):
         """In how many scenes what is predicted is within 3 dB, of how many."""
@@ -94,10 +99,10 @@ class Bits:
         """The share of each step in the sum of squares that all scenes have, each scene counting alike."""
         out = dict.fromkeys(self.names, 0.0)
         used = [f["numbers"][number]["alone"] for f in self.found.values() if number in f["numbers"]]
-        used = [a for a in used if sum(a)]
-        for alone in used:
-            for name, squares in zip(self.names, alone):
-                out[name] += squares / sum(alone) / len(used)
+        used = [squares for squares in ([sum(s) for s in alone] for alone in used) if any(squares)]
+        for squares in used:
+            for name, own in zip(self.names, squares):
+                out[name] += own / sum(squares) / len(used)
         return out
 
 
@@ -109,14 +114,13 @@ def costs(numbers):
         facts = board_facts(board)
         for number in numbers:
             image = f"build/{board}/steps-{number}.elf"
-            done = runs.subprocess.run(["make", "--no-print-directory", image, f"BOARD={board}", f"NUMBER={number}", "NAME=steps",
+            done = subprocess.run(["make", "--no-print-directory", image, f"BOARD={board}", f"NUMBER={number}", "NAME=steps",
                                         "FW_MAIN=src/study/steps.cpp", f"FW_EXTRA=-DQRAY_NUMBER={number}"],
                                        capture_output=True, text=True, env=environment())
             if done.returncode != 0:
                 fail(message_of(done))
             ticks = boards_run.run_semihosting(facts["qemu"].split(), image, f"{FOLDER}/none", 60)
-            calls = ticks.pop("calls")
-            empty = ticks.pop("nothing")
+            calls, empty = ticks.pop("calls"), ticks.pop("nothing")
             out[board, number] = {name: (t - empty) * float(facts["tick"]) / calls for name, t in ticks.items()}
     return out
 
@@ -129,19 +133,14 @@ def measure():
     return Bits(scenes(), "64x48" if quick() else SIZE)
 
 
-def behind(step):
-    return {"Significant": "all", "Cell": "of a cell"}.get(step["of"], "behind the point")
-
-
 def steps_table(b, cost):
     rows = []
     for step in b.steps:
         name, row = step["name"], b.at[step["name"]]
         middle, most = b.needs(name)
-        # The first and the last columns of bits say little.
         rows.append([step["what"], *(f"{v:.0f}" if row else "–" for v in (b.median(row) if row else b.bits)),
                      shown(b, middle), shown(b, most), *price(cost, name)])
-    rows.append(["all together", *(f"{v:.0f}" for v in b.median(b.together)), "", "", *[""] * (len(cost) + 0)])
+    rows.append(["all together", *(f"{v:.0f}" for v in b.median(b.together)), *[""] * (2 + len(cost))])
     return table(["what is rounded", *map(str, b.bits), f"{TARGET} dB", "everywhere",
                   *(f"{BOARDS[board]} {number}" for board, number in cost)], rows)
 
@@ -161,7 +160,7 @@ def numbers_table(b):
     return table(["dB", *(f"{n} {kind}" for n in b.numbers for kind in ("reaches", "together", "sum"))], rows)
 
 
-def gain(b, name, low=8, high=16):
+def gain(b, name, low, high):
     """Decibels a bit, of the median between these bits."""
     row = b.median(b.at[name])
     return (row[b.bits.index(high)] - row[b.bits.index(low)]) / (high - low)
@@ -179,10 +178,10 @@ def sentences(b, cost):
            f"steps at most {between[(len(between) - 1) // 2]}: one width for all is "
            "either too narrow for the first or wasted on the last."]
     first = needs[0][1]
-    out.append(f"What decides which object or cell a pixel shows gains half a step's error a bit, and so some "
-               f"{gain(b, first):.1f} dB ({what[first]}, from 8 to 16 bits); what only shades ends sooner, as a picture has 8 bits: "
-               f"{what['colour']} and {what['weight']} have {b.median(b.at['colour'])[b.bits.index(12)]:.0f} and "
-               f"{b.median(b.at['weight'])[b.bits.index(12)]:.0f} dB with 12 bits.")
+    out.append(f"Where a step moves edges, a bit halves the pixels that show something else, which is {gain(b, first, 8, 16):.1f} dB "
+               f"({what[first]}, from 8 to 16 bits); where it only shades, a bit is worth {gain(b, 'colour', 4, 8):.1f} dB ({what['colour']}, "
+               "from 4 to 8) until the picture's own 8 bits hide it: bits of directions and lengths are what accuracy wants, and those "
+               "of colours it hardly sees.")
     narrow, wide = b.numbers[0], b.numbers[-1]
 
     def total(board, number):
@@ -198,10 +197,9 @@ def sentences(b, cost):
     large = sorted(shares, key=shares.get, reverse=True)[:3]
     out.append(f"Of the error of `{narrow}`, {100 * sum(shares[n] for n in large):.0f} % is that of {listed([what[n] for n in large])} "
                "(mean of the scenes' shares); each bit more there is worth more than any elsewhere.")
-    said = [f"{listed(['%d of %d for `%s`' % (*b.agree(n, kind), n) for n in b.numbers])} {how}"
-            for kind, how in ((2, "as the sum of the squared errors of all steps, each alone"), (1, "with all steps rounded at once"))]
-    out.append(f"Errors of steps add up: so predicted, a number system is within 3 dB of what it reaches in {said[0]}, and in {said[1]}; "
-               "so a new one can be judged by this table before it is written.")
+    each, at_once = (listed(["%d of %d scenes (`%s`)" % (*b.agree(n, kind), n) for n in b.numbers]) for kind in (2, 1))
+    out.append(f"The errors of all steps, each alone, predict what a number system reaches within 3 dB in {each}, and all steps rounded at "
+               f"once in {at_once}: a new one can be judged by this table before it is written.")
     return "\n".join(out)
 
 
@@ -218,13 +216,13 @@ def study(folder):
     """For make study: the table as CSV, and the plot."""
     b = measure()
     write_csv(b, f"{folder}/steps.csv")
-    figures.steps(b, f"{folder}/steps.svg")
+    figures.steps(b, {} if quick() else costs(b.numbers), f"{folder}/steps.svg")
 
 
 def report():
     b = measure()
     cost = costs(b.numbers)
-    figures.steps(b, f"{FIGURES}/steps.svg")
+    figures.steps(b, cost, f"{FIGURES}/steps.svg")
     return (f"![Accuracy by step and bits]({FIGURES}/steps.svg)\n\n{sentences(b, cost)}\n\n"
             f"PSNR in dB to `double`, {b.size.replace('x', ' × ')} pixels, one sample, where one step alone rounds to so many bits "
             "behind the point and all else is `double`: the median of the scenes that have the step, then the bits for "
@@ -233,8 +231,9 @@ def report():
             "instructions of one call of the step's operations, loads and stores included, in firmware that calls nothing else "
             "(`steps.cpp`); what stands in tables has none.\n\n"
             + steps_table(b, cost)
-            + "\nWhat a number system reaches, and what its widths say: all steps rounded to its bits at once (together), and the squared "
-            "errors of each alone, added:\n\n" + numbers_table(b))
+            + "\nWhat a number system reaches, and what its widths say: all steps rounded to its bits at once (together), and the errors of "
+            "each alone, added (sum): squares of bytes off by up to 2 levels, and of others, which lie where edges have moved, the root "
+            "of the sum of the squares of these, as ways that know nothing of each other add up.\n\n" + numbers_table(b))
 
 
 REPORTS = {"bits": (report, lambda: ["figures/steps.svg", "| all together |"] + [f"{n} reaches" for n in ("q16", "q32")]

@@ -200,33 +200,41 @@ def panel(study, path):
     save(figure, path, "The showcase in each number system, and how far it is off")
 
 
-def steps(b, path):
-    """Of bits.py: accuracy by step and bits, and the bits that each scene needs of each step."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(13, 6.2))
-    what = [s["what"] for s in b.steps]
+def steps(b, cost, path):
+    """Of bits.py: accuracy by step and bits, the bits that each scene needs of each step, and what a step takes on boards."""
+    figure, (left, right, bars) = plt.subplots(1, 3, figsize=(16, 6.2), sharey=True, width_ratios=[6, 7, 3 if cost else 0.01])
+    nothing, most = [math.nan] * len(b.bits), b.bits[-1] + 2
 
-    def heat(axes, rows, columns, values, text, **options):
+    def heat(axes, columns, values, text, **options):
         shown = axes.imshow(values, aspect="auto", **options)
         for y, row in enumerate(values):
             for x, value in enumerate(row):
                 if value == value:
-                    dark = shown.norm(value) < 0.5
-                    axes.text(x, y, text(value), ha="center", va="center", fontsize=7, color="white" if dark else "black")
+                    axes.text(x, y, text(value), ha="center", va="center", fontsize=7,
+                              color="white" if shown.norm(value) < 0.5 else "black")
         axes.set_xticks(range(len(columns)), columns)
-        axes.set_yticks(range(len(rows)), rows)
         axes.grid(False)
 
-    nothing = [math.nan] * len(b.bits)
-    medians = [b.median(b.at[n]) if b.at[n] else nothing for n in b.names] + [b.median(b.together)]
-    heat(left, [*what, "all together"], b.bits, medians, lambda v: f"{v:.0f}", cmap="viridis", vmin=20, vmax=99)
+    rows = [*b.at.values(), b.together]
+    heat(left, b.bits, [b.median(row) if row else nothing for row in rows], lambda v: f"{v:.0f}", cmap="viridis", vmin=20, vmax=99)
     left.set(title="dB, median of scenes", xlabel="bits")
-    most = b.bits[-1] + 2
-    needed = [[(b.needed(b.at[n][scene]) or most) if scene in b.at[n] else math.nan for scene in b.found] for n in b.names]
-    heat(right, [], [name_of(s) for s in b.found], needed, lambda v: f"{v}" if v < most else ">", cmap="magma", vmin=4, vmax=most)
+    left.set_yticks(range(len(rows)), [*(s["what"] for s in b.steps), "all together"])
+    heat(right, [name_of(s) for s in b.found],
+         [[(b.needed(row[s]) or most) if s in row else math.nan for s in b.found] for row in rows],
+         lambda v: f"{v}" if v < most else ">", cmap="magma", vmin=4, vmax=most)
     right.set_title("bits for 60 dB, by scene")
     right.tick_params(axis="x", rotation=90)
+    bars.set_title("instructions a call" if cost else "")
+    for k, (board, number) in enumerate(cost):
+        own = cost[board, number]
+        bars.barh([y + (k - 1.5) * 0.2 for y in range(len(b.names))], [own[n] for n in b.names], 0.2,
+                  color=TONES[k // 2], alpha=1 if number != b.numbers[0] else 0.45, label=f"{runs.BOARDS[board]} {number}")
+    if cost:
+        bars.legend(loc="lower right")
+    else:
+        bars.axis("off")
     save(figure, path, "What each bit of each step buys",
-         f"One step rounds, all else is double; PSNR to double, {b.size} pixels. Left blank: the scene has no such step.")
+         f"One step rounds, all else is double; PSNR to double, {b.size} pixels. Blank: the scene has no such step.")
 
 
 def growth(lines, path):
