@@ -60,6 +60,119 @@ int main(void)
     return 0;
 }
 """
+# Things that move, in C11: a frame for each line of MOVES.
+MOVING = r"""#include <qray_c.h>
+#include <stdio.h>
+
+static uint8_t picture[32 * 24 * 3];
+
+static int frame(void)
+{
+    qray_refit();
+    return printf("P6\n32 24\n255\n") > 0 && qray_rows(0, 24, picture) == 24
+        && fwrite(picture, 1, sizeof picture, stdout) != 0;
+}
+
+int main(void)
+{
+    const qray_motion shift = {.shift = {QRAY_ONE / 2, QRAY_ONE / 4, -QRAY_ONE}}, none = {0};
+    const qray_motion turn = {.about = {QRAY_ONE, 0, 0}, .axis = {QRAY_ONE, 2 * QRAY_ONE, 0}, .angle = qray_turn(1, 7),
+                              .scale = QRAY_ONE / 2, .shift = {0, QRAY_ONE / 8, 0}};
+    const qray_motion out = {.shift = {100 * QRAY_ONE}};
+    const int32_t eye[3] = {QRAY_ONE, 2 * QRAY_ONE, 5 * QRAY_ONE}, at[3] = {0, QRAY_ONE, 0}, up[3] = {0, QRAY_ONE, 0};
+    const int32_t place[3] = {-QRAY_ONE, QRAY_ONE * 3 / 2, QRAY_ONE}, colour[3] = {0, QRAY_ONE, QRAY_ONE / 4};
+    const int32_t bright[3] = {0, QRAY_ONE + 1, 0};
+    uint32_t (*const move[])(uint32_t, uint32_t, const qray_motion*) = {
+        qray_move_spheres, qray_move_discs,  qray_move_cones, qray_move_polygons,
+        qray_move_patches, qray_move_lights, qray_move_suns,  qray_move_panels};
+    const uint32_t things[] = {1, 1, 1, 1, 2, 1, 1, 1};
+    unsigned i;
+    if (!frame())
+        return 1;
+    for (i = 0; i < 8; i++) /* shifted, as in the text */
+        if (move[i](0, 99, &shift) != things[i] || move[i](things[i], 1, &shift) != 0)
+            return 2;
+    if (!frame())
+        return 3;
+    for (i = 0; i < 8; i++) /* and turned, always from where they were; or stay, and go on staying where they are */
+        if (move[i](0, 99, &turn) != things[i] || move[i](0, 0, &none) != 0 || (i != 6 && move[i](0, 1, &out) != 0))
+            return 4;
+    if (qray_look_at(eye, eye, up, 0) || qray_look_at(eye, at, up, qray_turn(1, 2))
+        || !qray_look_at(eye, at, up, qray_turn(1, 8)) || !frame())
+        return 5;
+    if (!qray_look_at(eye, at, up, 0) || !frame())
+        return 6;
+    for (i = 0; i < 8; i++)
+        if (move[i](0, 99, &none) != things[i])
+            return 7;
+    if (!qray_place_sphere(0, place, QRAY_ONE / 2) || !qray_place_light(0, place) || !qray_place_sun(0, place)
+        || !qray_paint(0, colour) || qray_paint(0, bright) || qray_place_sphere(1, place, QRAY_ONE)
+        || qray_place_sphere(0, place, 0) || qray_place_light(1, place) || qray_place_sun(1, place)
+        || qray_paint(9, colour))
+        return 8;
+    return !frame();
+}
+"""
+# The same in C++, by the library.
+MOVING_CPP = r"""#include <qray/qray.hpp>
+#include <stdio.h>
+#include "scene.hpp"
+
+using N = scene::Number;
+
+static bool frame()
+{
+    static uint8_t picture[32 * 24 * 3];
+    scene::refit();
+    printf("P6\n32 24\n255\n");
+    qray::render_rect<qray::Rgb888>(scene::scene, 0, 0, 32, 24, picture);
+    return fwrite(picture, 1, sizeof picture, stdout) != 0;
+}
+
+static bool move_all(const qray::Motion<N>& m)
+{
+    using namespace scene;
+    const qray::Corners<N> first{first_vertices.data, first_normals.data};
+    const qray::MovedCorners<N> now{vertices.data, normals.data};
+    bool all = move(first_spheres[0], m, spheres[0]) & move(first_discs[0], m, discs[0])
+        & move(first_cones[0], m, cones[0]) & move(first_polygons[0], first, m, polygons[0], now)
+        & move(first_lights[0], m, lights[0]) & move(first_suns[0], m, suns[0]) & move(first_panels[0], m, panels[0]);
+    for (uint32_t i = 0; i < 2; i++)
+        all &= move(first_patches[i], first, m, patches[i], now);
+    return all;
+}
+
+int main()
+{
+    const auto c = [](int32_t n, int32_t d = 1) { return qray::coordinate<N>(n, d); };
+    qray::Motion<N> none(scene::frame), shift(scene::frame), turn(scene::frame);
+    shift.shift({c(1, 2), c(1, 4), c(-1)});
+    turn.about({c(1), {}, {}}).turn({c(1), c(2), {}}, qray::part_of_turn(1, 7)).scale(c(1, 2)).shift({{}, c(1, 8), {}});
+    bool well = frame() && move_all(shift) && frame() && move_all(turn);
+    qray::View<N> view{{c(1), c(2), c(5)}, {{}, c(1), {}}, {{}, c(1), {}}, qray::field<N>(1u << 29)};
+    well = well && look_at(scene::camera, scene::frame, view) && frame();
+    view.field = scene::view.field;
+    well = well && look_at(scene::camera, scene::frame, view) && frame() && move_all(none);
+    const qray::ScenePoint<N> at{c(-1), c(3, 2), c(1)};
+    return !(well && place(scene::spheres[0], scene::frame, at, c(1, 2)) && place(scene::lights[0], scene::frame, at)
+             && place(scene::suns[0], at) && paint(scene::mattes[0], {{}, c(1), c(1, 4)}) && frame());
+}
+"""
+MOVING_SCENE = """v from 0 3 9  at 0 1 0  up 0 1 0  angle 50  hither 1  resolution 32 24
+b 0.3 0.4 0.6
+l {l}  0.5 0.5 0.5
+sun 1 2 1  0.25 0.25 0.25
+panel 2  {panel}  1 0 0  0 0 1  0.25 0.25 0.25
+material colour 1 0.25 0.25
+s {s}  0.75
+disc {disc}  0 1 0.5  0.5
+c {c0} 0.5  {c1} 0.25
+p 4  {p0}  {p1}  {p2}  {p3}
+pp 4  {q0} 0 0 1  {q1} 0.25 0 1  {q2} 0 0.25 1  {q3} 0 0 1
+"""
+MOVING_PLACES = {"l": (3, 6, 4), "panel": (-3, 5, 3), "s": (-2, 1, 0), "disc": (0, 3, 0), "c0": (2, 0.5, 1),
+                 "c1": (2, 2, 1), "p0": (-1, 2, -2), "p1": (1, 2, -2), "p2": (1, 4, -2), "p3": (-1, 4, -2),
+                 "q0": (0, 0, 2), "q1": (1, 0, 2), "q2": (1, 1, 2), "q3": (0, 1, 2)}
 # What Arduino includes before a sketch, and runs it with.
 ARDUINO = """#include <stdio.h>
 #include <string.h>
@@ -115,6 +228,7 @@ CROSS = """cmake_minimum_required(VERSION 3.13)
 project(cross CXX)
 add_subdirectory(PACKAGE qray)
 qray_object(face "SCENE" SIZE 8x6 FORMAT "Dithered<Mono>")
+qray_object(moving "SCENE" SIZE 8x6 MOVING camera)
 add_library(picture OBJECT draw.cpp)
 target_link_libraries(picture qray::qray)
 qray_scene(picture "SCENE" NUMBER q16 SIZE 8x6 SAMPLES 4 NAME scene)
@@ -189,6 +303,8 @@ class Package(unittest.TestCase):
             self.assertIn(b"balls.hpp", run("cmake", "--build", build, "--clean-first"))
             symbols = run("nm", f"{build}/CMakeFiles/face.dir{PACKAGE}/c/qray_c.cpp.obj").decode()
             self.assertEqual(set(re.findall(r" T (\w+)", symbols)), FACE)
+            symbols = run("nm", f"{build}/CMakeFiles/moving.dir{PACKAGE}/c/qray_c.cpp.obj").decode()
+            self.assertIn("T qray_look_at\n", symbols)
             self.assertEqual(read(build + "/qray/picture/balls.hpp"), expected)
         self.assertNotIn(b"Generating", run("cmake", "--build", build))
         os.utime(scene)
@@ -203,7 +319,7 @@ class Package(unittest.TestCase):
             run(*compiler, "-pedantic", "-Wall", "-Wextra", "-Werror", "-Ibuild/object/balls", FOLDER + "/face.c", "-x",
                 "none", "build/object/balls/qray.o", "-o", FOLDER + "/face")
             self.assertEqual(run(FOLDER + "/face"), self.picture)
-        example, = re.findall(r"^```c\n(.*?)^```$", read("src/package/README.md").decode(), re.M | re.S)
+        example = "".join(re.findall(r"^```c\n(.*?)^```$", read("src/package/README.md").decode(), re.M | re.S))
         run("gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-Ibuild/object/balls", "-fsyntax-only", "-x", "c", "-",
             input=b"#include <stdint.h>\nvoid show(uint32_t, const uint8_t*, uint32_t);\n" + example.encode())
         run(*arguments, "BOARD=microbit", "NAME=face_m0", env=environment)
@@ -213,6 +329,37 @@ class Package(unittest.TestCase):
                           if not re.match("mem(cpy|set)$|__(aeabi|gnu)_", name)], [])
         self.assertEqual(re.findall(r" [bBdD] \w+", symbols), [], "it has no state")
         self.assertNotIn("srgb", symbols)
+
+    # The same bytes as by C++; and what is shifted as in the text with the other numbers.
+    def test_moving_in_c(self):
+        def scene(name, by):
+            places = {k: " ".join(str(v + d) for v, d in zip(at, by)) for k, at in MOVING_PLACES.items()}
+            return write(f"{name}.nff", MOVING_SCENE.format(**places))
+        path, within, out = scene("moving", (0, 0, 0)), "-7,-7,-7,7,7,9", "build/object/moving"
+        program, other = write("moving.c", MOVING), write("moving.cpp", MOVING_CPP)
+        environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
+        for number in ("q32", "float"):
+            with self.subTest(number=number):
+                arguments = ["make", "-o", "build/qray", "object", f"SCENE={path}", f"NUMBER={number}", "OPTIMISE=-O0",
+                             "MOVING=all", f"WITHIN={within}"]
+                run(*arguments, env=environment)
+                run("gcc", "-std=c11", "-pedantic", "-Wall", "-Wextra", "-Werror", "-I" + out, program,
+                    out + "/qray.o", "-o", FOLDER + "/moving")
+                frames = run(FOLDER + "/moving")
+                run("g++", *FLAGS, "-Iinclude", "-I" + out, other, "-o", FOLDER + "/moving_cpp")
+                self.assertEqual(frames, run(FOLDER + "/moving_cpp"))
+                size = len(frames) // 5
+                self.assertEqual(len({frames[i * size:(i + 1) * size] for i in range(5)}), 5)
+                for i, by in enumerate([(0, 0, 0), (0.5, 0.25, -1)]):
+                    expected = run("build/qray", scene(f"moving_{i}", by), "-q", "-n", number, "--within", within,
+                                   "-o", "-")
+                    self.assertEqual(frames[i * size:(i + 1) * size], expected)
+        run(*arguments, "BOARD=microbit", "NAME=moving_m0", env=environment)
+        symbols = run("arm-none-eabi-nm", "build/object/moving_m0/qray.o").decode()
+        header = read("src/package/c/qray_c.h").decode()
+        declared = set(re.findall(r"^(?:int|uint32_t|void) (qray_\w+)\(", header, re.M))
+        self.assertEqual(set(re.findall(r" T (\w+)", symbols)), declared)
+        self.assertGreater(declared, FACE)
 
     def test_a_scene_of_an_unknown_option(self):
         write("wrong/CMakeLists.txt", CROSS.replace("SAMPLES", "SAMPLE").replace("SCENE", "x.nff"))

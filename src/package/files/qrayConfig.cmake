@@ -1,5 +1,6 @@
 # qray::qray, the library, and
-#   qray_scene(target scene.nff [NUMBER q32] [SIZE 64x48] [SAMPLES 4] [ADAPTIVE 2] [DEPTH 5] [CUTOFF 0.01] [NAME scene])
+#   qray_scene(target scene.nff [NUMBER q32] [SIZE 64x48] [SAMPLES 4] [ADAPTIVE 2] [DEPTH 5] [CUTOFF 0.01] [NAME scene]
+#              [MOVING camera,spheres] [WITHIN x,y,z,x,y,z])
 # which compiles a scene for #include "scene.hpp" in the target's sources, and again when it changes (NAME is its
 # namespace), and
 #   qray_object(target scene.nff [FORMAT Rgb565Big] [as above])
@@ -17,7 +18,7 @@ set(QRAY_C ${CMAKE_CURRENT_LIST_DIR}/c CACHE INTERNAL "")
 find_program(QRAY_COMMAND qray HINTS ${CMAKE_CURRENT_LIST_DIR}/bin NO_CMAKE_FIND_ROOT_PATH)
 
 function(qray_scene target scene)
-    cmake_parse_arguments(PARSE_ARGV 2 QRAY "" "NUMBER;SIZE;SAMPLES;ADAPTIVE;DEPTH;CUTOFF;NAME" "")
+    cmake_parse_arguments(PARSE_ARGV 2 QRAY "" "NUMBER;SIZE;SAMPLES;ADAPTIVE;DEPTH;CUTOFF;NAME;MOVING;WITHIN" "")
     if(QRAY_UNPARSED_ARGUMENTS)
         message(FATAL_ERROR "qray_scene(${target} ${scene}): unknown: ${QRAY_UNPARSED_ARGUMENTS}")
     endif()
@@ -28,7 +29,8 @@ function(qray_scene target scene)
     get_filename_component(folder ${path} DIRECTORY)
     get_filename_component(name ${path} NAME_WE)
     set(options)
-    foreach(option NUMBER=-n SIZE=-s SAMPLES=-r ADAPTIVE=-a DEPTH=-d CUTOFF=--cutoff NAME=--name)
+    foreach(option NUMBER=-n SIZE=-s SAMPLES=-r ADAPTIVE=-a DEPTH=-d CUTOFF=--cutoff NAME=--name
+            MOVING=--moving WITHIN=--within)
         string(REPLACE "=" ";" pair ${option})
         list(GET pair 0 key)
         list(GET pair 1 flag)
@@ -56,6 +58,9 @@ function(qray_object target scene)
     target_compile_definitions(${target} PRIVATE QRAY_SCENE_HEADER="${name}.hpp")
     if(OBJECT_FORMAT)
         target_compile_definitions(${target} PRIVATE "QRAY_FORMAT=${OBJECT_FORMAT}")
+    endif()
+    if("MOVING" IN_LIST OBJECT_UNPARSED_ARGUMENTS)
+        target_compile_definitions(${target} PRIVATE QRAY_MOVING)
     endif()
     qray_scene(${target} ${scene} ${OBJECT_UNPARSED_ARGUMENTS})
 endfunction()
