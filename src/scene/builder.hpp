@@ -114,7 +114,7 @@ public:
     bool push_lean(Array<T>& table, const Point<N>* corners, const Direction<N>* normals, const Direction<N>& g,
                    uint32_t place, uint32_t fill)
     {
-        const bool moves = (settings.moving & (bit_of(TableId::polygons) | bit_of(TableId::patches))) != 0;
+        const bool moves = (settings.moving & bit_of(T::is_smooth ? TableId::patches : TableId::polygons)) != 0;
         return flat && !moves && LeanBuilder<N>{s}.push(table, corners, normals, g, place, fill);
     }
 

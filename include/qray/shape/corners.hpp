@@ -263,8 +263,9 @@ template <HasCorners S, class N, class C>
 QRAY_INLINE constexpr bool meets(const S& s, const C& corners, const Ray<N>& ray, typename N::Length limit,
                                  typename N::Length& t, bool to_light)
 {
-    return !(ray.from == tag_of(s)) && (!S::is_lean || encloses(s, corners.points, ray))
-        && meets<S::is_lean || C::enclose>(s, corners.points, ray, limit, t, to_light);
+    constexpr bool outline_first = S::is_lean || C::outline_first;
+    return !(ray.from == tag_of(s)) && (!outline_first || encloses(s, corners.points, ray))
+        && meets<outline_first || C::enclose>(s, corners.points, ray, limit, t, to_light);
 }
 
 template <bool Near = false, HasCorners S, class N, class C>

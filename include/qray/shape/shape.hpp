@@ -24,7 +24,7 @@ namespace qray {
 // The scene's corners, and the shading normals there; null where no shape has such.
 template <class N>
 struct Corners {
-    static constexpr bool enclose = false;
+    static constexpr bool enclose = false, outline_first = false;
     const Point<N>* points;
     const Direction<N>* normals;
 };
@@ -33,6 +33,11 @@ struct Corners {
 template <class N>
 struct EnclosingCorners : Corners<N> {
     static constexpr bool enclose = true;
+};
+// The same where its outline is to be asked before its plane.
+template <class N>
+struct OutlineCorners : Corners<N> {
+    static constexpr bool outline_first = true;
 };
 
 // In 1/512 of a length, how far along the ray a hit may be reported from where the ray's line passes through the shape,

@@ -58,6 +58,8 @@ QRAY_INLINE constexpr auto candidates_corners(const Scene<N, E>& scene)
 {
     if constexpr (E.tree && has_outlines<N>)
         return EnclosingCorners<N>{corners_of(scene)};
+    else if constexpr (E.flat_tree && E.moving && NarrowFixed<N>) // as of the triangles that stand still in little room
+        return OutlineCorners<N>{corners_of(scene)};
     else
         return corners_of(scene);
 }
