@@ -94,6 +94,21 @@ void flat_rows_of(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts
     rows_of<N, E>(first, last, rgb, counts);
 }
 
+// Fills all of `built` but the kernel.
+template <class N>
+bool build_scene(const scene::Description& description, const scene::Settings& settings, Built& built, scene::Error& error)
+{
+    scene::Storage<N>& storage = storage_of<N>();
+    if (!make_room(storage.room, storage.lay_out(description, settings.compiled))) {
+        snprintf(error.text, sizeof error.text, "not enough memory for the scene");
+        return false;
+    }
+    if (!scene::Builder<N>(description, settings, storage).build(error))
+        return false;
+    built = {storage.camera.width, storage.camera.height, storage.effects, storage.vanished, storage.lost, nullptr};
+    return true;
+}
+
 template <class N>
 struct RendererOf {
     // The tracers that are built ahead, from the tightest to the one for everything: the first that can draw the scene
@@ -123,15 +138,9 @@ struct RendererOf {
     static bool build(const scene::Description& description, const scene::Settings& settings, Built& built,
                       scene::Error& error)
     {
-        scene::Storage<N>& storage = storage_of<N>();
-        if (!make_room(storage.room, storage.lay_out(description, settings.compiled))) {
-            snprintf(error.text, sizeof error.text, "not enough memory for the scene");
+        if (!build_scene<N>(description, settings, built, error))
             return false;
-        }
-        if (!scene::Builder<N>(description, settings, storage).build(error))
-            return false;
-        built = {storage.camera.width, storage.camera.height, storage.effects, storage.vanished,
-                 storage.lost, kernel().name};
+        built.kernel = kernel().name;
         return true;
     }
     static void rows(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts)

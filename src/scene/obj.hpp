@@ -14,7 +14,7 @@ public:
 
     // What the text can hold at most, before it is checked.
     struct Size {
-        uint64_t points = 0, normals = 0, triangles = 0;
+        size_t points = 0, normals = 0, triangles = 0;
     };
     Size size()
     {

@@ -674,7 +674,7 @@ private:
     void gather_links(SurfaceCell& cell)
     {
         const FlatSurface& s = surfaces[cell.surface];
-        Link* const own = links + (&cell - cells) * most_links;
+        Link* const own = links + static_cast<size_t>(&cell - cells) * most_links;
         cell.links = 0;
         cell.base = gather(s, cell.at, cell.side, [&](uint32_t to, double weight) {
             own[cell.links++] = {to, static_cast<float>(weight)};

@@ -1,0 +1,558 @@
+'use strict';
+const $ = id => document.getElementById(id);
+const data = JSON.parse($('data').textContent);
+const unpacked = text => Uint8Array.from(atob(text), c => c.charCodeAt(0));
+const element = (name, properties = {}, ...children) => {
+    const made = Object.assign(document.createElement(name), properties);
+    made.append(...children);
+    return made;
+};
+const drawn = (name, attributes = {}, ...children) => { // an element of a picture
+    const made = document.createElementNS('http://www.w3.org/2000/svg', name);
+    for (const [key, value] of Object.entries(attributes))
+        made.setAttribute(key, value);
+    made.append(...children);
+    return made;
+};
+const spaced = n => Math.round(n).toString().replace(/\B(?=(\d{3})+$)/g, '\u202f');
+const short = n => {
+    const e = Math.min(Math.floor(Math.log10(Math.max(n, 1)) / 3), 4);
+    return (n / 1000 ** e).toPrecision(3).replace(/e\+.*/, '') + ['', ' k', ' M', ' G', ' T'][e];
+};
+
+// What is shown: the scene's name, or its text where that is not the one of this name, and how each side is drawn.
+const first_scene = 'showcase';
+const drawing = {number: 'q32', samples: 1, levels: 0, threshold: 1 / 16, depth: 5, cutoff: 0.0014};
+const truth = {number: 'double', samples: 64, levels: 0, threshold: 1 / 16, depth: 8, cutoff: 0};
+const shown = {scene: first_scene, text: data.scenes[first_scene], size: '320x240', board: 'microbit',
+               sides: [{...drawing, number: 'q16'}, {...drawing}]};
+const is_changed = () => shown.text !== data.scenes[shown.scene];
+const scene_file = () => is_changed() ? 'scene.nff' : `scenes/${shown.scene}.nff`;
+
+// A slider's places, what they stand for, and when there is one. `s` is a side's settings, `scene` what was read.
+const squares = [1, 4, 9, 16, 25, 36, 49, 64];
+const cutoffs = [0, 0.0005, 0.0014, 0.004, 0.01, 0.03, 0.1, 0.3, 1];
+const dials = {
+    samples: {label: 'Samples a pixel', values: squares, when: s => s.levels === 0},
+    levels: {label: 'Adaptive levels', values: [0, 1, 2, 3, 4, 5, 6], text: v => v === 0 ? 'off' : v},
+    threshold: {label: 'Threshold', values: Array.from({length: 33}, (_, i) => i / 64), text: v => v.toFixed(3),
+                when: s => s.levels > 1},
+    depth: {label: 'Depth', values: Array.from({length: 16}, (_, i) => i + 1), when: (s, scene) => scene.spawns},
+    cutoff: {label: 'Cutoff', values: cutoffs, when: (s, scene) => scene.spawns},
+};
+
+// A worker and its latest job. One that cannot listen, as it computes light between surfaces, is put away.
+let module = null, told = null, worker_url = null, ids = 0;
+const files = Object.fromEntries(Object.entries(data.files).map(([name, text]) => [name, unpacked(text)]));
+class Tracer {
+    start(job, answer) {
+        if (this.solving)
+            this.end();
+        if (this.worker === undefined) {
+            this.worker = new Worker(worker_url);
+            this.worker.postMessage({module, files});
+            this.worker.onmessage = ({data: message}) => {
+                if (message.id !== this.id)
+                    return;
+                this.solving = message.solving ?? this.solving;
+                this.answer(message);
+            };
+        }
+        this.id = ++ids;
+        this.answer = answer;
+        this.worker.postMessage({...job, id: this.id, name: scene_file().replace('scenes/', ''), text: shown.text});
+    }
+    end() {
+        this.worker?.terminate();
+        this.worker = undefined;
+        this.solving = false;
+    }
+    // Takes no more answers; the job ends when the next one comes.
+    stop() {
+        this.id = 0;
+        if (this.solving)
+            this.end();
+    }
+}
+const judge = new Tracer(), surveyor = new Tracer();
+
+function state(name) {
+    document.body.dataset.state = name;
+}
+
+// One of the two pictures.
+class Side {
+    constructor(index) {
+        this.index = index;
+        this.tracer = new Tracer();
+        this.name = 'AB'[index];
+        this.canvas = element('canvas', {tabIndex: 0});
+        this.canvas.setAttribute('role', 'img');
+        this.title = element('span');
+        this.progress = element('progress', {max: 1, value: 0});
+        this.progress.setAttribute('aria-label', `Drawing picture ${this.name}`);
+        this.facts = element('p', {className: 'facts'});
+        this.root = element('figure', {className: 'picture'},
+                            element('h2', {textContent: `Picture ${this.name}`}, this.title), this.canvas, this.progress,
+                            this.facts, this.controls());
+        choose_pixels(this.canvas);
+    }
+    get settings() { return shown.sides[this.index]; }
+
+    controls() {
+        const numbers = element('div', {className: 'numbers', role: 'radiogroup'});
+        numbers.setAttribute('aria-label', 'Number system');
+        this.radios = told.numbers.map(number => element('input', {
+            type: 'radio', name: `number-${this.name}`, value: number,
+            onchange: () => this.change({number}),
+        }));
+        numbers.append(...this.radios.map(radio => element('label', {}, radio, radio.value)));
+        this.dials = Object.entries(dials).map(([key, dial]) => {
+            const range = element('input', {type: 'range', min: 0, max: dial.values.length - 1, id: `${key}-${this.name}`});
+            const output = element('output');
+            range.oninput = () => this.change({[key]: dial.values[range.value]});
+            return {key, dial, range, output,
+                    root: element('label', {className: 'dial'}, element('span', {textContent: dial.label}), range, output)};
+        });
+        return element('fieldset', {}, element('legend', {textContent: `How picture ${this.name} is drawn`}), numbers,
+                       ...this.dials.map(d => d.root));
+    }
+    change(part) {
+        Object.assign(this.settings, part);
+        show_chosen(null);
+        this.draw();
+    }
+    show_dials(scene) {
+        const s = this.settings;
+        for (const radio of this.radios)
+            radio.checked = radio.value === s.number;
+        for (const {key, dial, range, output, root} of this.dials) {
+            const nearest = dial.values.reduce((best, v, i) => Math.abs(v - s[key]) < Math.abs(dial.values[best] - s[key]) ? i : best, 0);
+            range.value = nearest;
+            output.textContent = (dial.text ?? String)(s[key]);
+            range.setAttribute('aria-valuetext', output.textContent);
+            if (scene !== undefined || dial.when?.length !== 2)
+                root.hidden = dial.when !== undefined && !dial.when(s, scene);
+        }
+    }
+
+    draw() {
+        const [width, height] = shown.size === 'scene' ? [0, 0] : shown.size.split('x').map(Number);
+        this.done = false;
+        this.rgb = null;
+        state('drawing');
+        judge.stop();
+        this.show_dials(this.scene);
+        this.root.classList.add('stale');
+        this.progress.value = 0;
+        save_link();
+        this.tracer.start({kind: 'draw', width, height, settings: this.settings}, m => this.take(m));
+    }
+    take(m) {
+        if (m.failed !== undefined) {
+            this.facts.textContent = m.failed;
+            this.facts.className = 'facts wrong';
+            this.failed = true;
+            this.done = true;
+            if (/^[^\s:]+:\d+:/.test(m.failed)) // of the text, not of a number system
+                show_message(m.failed, true);
+            compare();
+            return;
+        }
+        if (m.solving)
+            this.facts.textContent = 'computing the light between surfaces …';
+        if (m.scene !== undefined) {
+            this.failed = false;
+            this.scene = m.scene;
+            this.built = m.built;
+            this.facts.className = 'facts';
+            this.canvas.width = m.built.width;
+            this.canvas.height = m.built.height;
+            this.rgb = new Uint8Array(3 * m.built.width * m.built.height);
+            this.show_dials(m.scene);
+            scene_read(this);
+        }
+        if (m.rgb !== undefined) {
+            this.rgb.set(m.rgb, m.first * this.built.width * 3);
+            paint(this.canvas, m.rgb, m.first);
+            this.root.classList.remove('stale');
+            this.progress.value = m.part;
+            this.facts.textContent = `${Math.round(100 * m.part)} %, ${(m.ms / 1000).toFixed(2)} s`;
+        }
+        if (m.done) {
+            const rays = m.rays.reduce((a, b) => a + b), kinds = ['camera', 'shadow', 'mirrored', 'refracted'];
+            this.ms = m.ms;
+            this.rays = rays;
+            this.done = true;
+            this.title.textContent = describe_settings(this.settings);
+            this.canvas.setAttribute('aria-label', `Picture ${this.name}: ${shown.scene}, ${describe_settings(this.settings)}. Arrow keys choose a pixel.`);
+            this.facts.textContent = `${(m.ms / 1000).toFixed(2)} s in this browser · ${spaced(rays)} rays`;
+            this.facts.title = m.rays.map((n, i) => `${kinds[i]}: ${spaced(n)}`).join(', ');
+            this.progress.value = 0;
+            compare();
+        }
+    }
+}
+
+function describe_settings(s) {
+    return s.number + (s.levels !== 0 ? `, adaptive ${s.levels}` : s.samples !== 1 ? `, ${s.samples} samples` : '');
+}
+
+function paint(canvas, rgb, first_row) {
+    const image = new ImageData(canvas.width, rgb.length / 3 / canvas.width);
+    for (let i = 0, j = 0; i < rgb.length; j += 4) {
+        image.data[j] = rgb[i++];
+        image.data[j + 1] = rgb[i++];
+        image.data[j + 2] = rgb[i++];
+        image.data[j + 3] = 255;
+    }
+    canvas.getContext('2d').putImageData(image, 0, first_row);
+}
+
+// The message beside the text.
+function show_message(text, wrong) {
+    const message = $('message'), place = /^[^\s:]*:(\d+):(?:(\d+):)?/.exec(text);
+    message.className = wrong ? 'wrong' : '';
+    message.replaceChildren();
+    $('text').setAttribute('aria-invalid', wrong);
+    if (place !== null && wrong)
+        message.append(element('button', {type: 'button', textContent: place[0].slice(0, -1), title: 'Go there',
+                                          onclick: () => go_to(+place[1], +(place[2] ?? 1))}), text.slice(place[0].length - 1));
+    else
+        message.append(text);
+}
+function go_to(line, column) {
+    const lines = shown.text.split('\n'), at = lines.slice(0, line - 1).join('\n').length + (line > 1 ? 1 : 0) + column - 1;
+    const area = $('text');
+    area.focus();
+    area.setSelectionRange(at, Math.min(at + 1, shown.text.length));
+    area.scrollTop = (line - 6) * parseFloat(getComputedStyle(area).lineHeight);
+}
+function scene_read(side) {
+    const warnings = [...side.scene.warnings, ...sides.flatMap(s => s.built?.warnings ?? [])];
+    const lines = warnings.map(w => `Warning, line ${w.line}: ${w.text}${w.count > 1 ? ` (${w.count} in all)` : ''}`);
+    show_message([...new Set(lines)].join('\n') || side.scene.title, false);
+    const panel = /^[ \t]*panel[ \t]+(\d+)/m.exec(shown.text);
+    $('places-dial').hidden = side.scene.panels === 0 || panel === null;
+    if (panel !== null) {
+        $('places').value = panel[1];
+        $('places-dial').querySelector('output').textContent = panel[1];
+    }
+}
+
+// The difference of the two.
+const scale = [[24, 26, 30], [38, 58, 110], [46, 108, 164], [62, 160, 140], [150, 190, 70], [236, 190, 56], [236, 120, 44],
+               [212, 50, 60], [255, 230, 240]]; // 0, 1, 3, 7, ... 255
+function false_colour(level) {
+    const at = Math.log2(1 + level), i = Math.min(Math.floor(at), 7), part = at - i;
+    return scale[i].map((c, k) => Math.round(c + (scale[i + 1][k] - c) * part));
+}
+const colours = Array.from({length: 256}, (_, level) => false_colour(level));
+function show_scale() {
+    const at = i => 2 ** (i / 255 * 8) - 1;
+    paint($('scale'), new Uint8Array(Array.from({length: 256}, (_, i) => false_colour(at(i))).flat()), 0);
+    document.querySelector('.ticks').replaceChildren(...[1, 3, 7, 15, 31, 63, 127].map(level => element('b', {
+        textContent: level, style: `left: ${Math.log2(1 + level) / 8 * 100}%`})));
+}
+let compared = null, chosen_pixel = null;
+function compare() {
+    const [a, b] = sides;
+    if (!a.done || !b.done)
+        return;
+    if (a.failed || b.failed) {
+        state('error');
+        return;
+    }
+    const {width, height} = a.built;
+    judge.start({kind: 'compare', width, height, a: a.rgb, b: b.rgb}, m => {
+        if (m.failed !== undefined)
+            return;
+        const f = m.figures, mean = f.squares / (3 * width * height);
+        compared = {...f, psnr: mean === 0 ? Infinity : 10 * Math.log10(255 ** 2 / mean), map: m.map};
+        const canvas = $('map');
+        canvas.width = width;
+        canvas.height = height;
+        paint(canvas, new Uint8Array(Array.from(m.map, level => colours[level]).flat()), 0);
+        const rows = [['PSNR', mean === 0 ? 'equal' : `${compared.psnr.toFixed(1)} dB`]];
+        if (f.flip !== undefined)
+            rows.push(['FLIP', `${f.flip.toFixed(4)} mean; ${(100 * f.seen).toFixed(2)} % of pixels can be seen to differ`]);
+        rows.push(['Pixels that differ', `${spaced(f.differ)} of ${spaced(width * height)}`],
+                  ['Largest difference', `${f.most} of 255 levels`],
+                  ['Time here, A : B', `${(a.ms / 1000).toFixed(2)} s : ${(b.ms / 1000).toFixed(2)} s`],
+                  ['Rays, A : B', `${spaced(a.rays)} : ${spaced(b.rays)}`]);
+        $('figures').replaceChildren(...rows.flatMap(([name, value]) => [element('dt', {textContent: name}),
+                                                                        element('dd', {textContent: value})]));
+        show_pixel();
+        state('done');
+        survey();
+    });
+}
+
+// A pixel, by the mouse or by arrow keys, on any of the three pictures.
+function choose_pixels(canvas) {
+    canvas.onclick = e => choose(Math.floor(e.offsetX / canvas.clientWidth * canvas.width),
+                                 Math.floor(e.offsetY / canvas.clientHeight * canvas.height));
+    canvas.onkeydown = e => {
+        const step = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[e.key];
+        if (step === undefined)
+            return;
+        e.preventDefault();
+        const [x, y] = chosen_pixel ?? [canvas.width >> 1, canvas.height >> 1], far = e.shiftKey ? 10 : 1;
+        choose(x + step[0] * far, y + step[1] * far);
+    };
+}
+function choose(x, y) {
+    const {width, height} = $('map');
+    chosen_pixel = [Math.max(0, Math.min(x, width - 1)), Math.max(0, Math.min(y, height - 1))];
+    show_pixel();
+}
+function show_pixel() {
+    if (chosen_pixel === null || compared === null || sides.some(s => !s.done || s.failed))
+        return;
+    const [x, y] = chosen_pixel, at = y * sides[0].built.width + x;
+    $('pixel').replaceChildren(element('b', {textContent: `Pixel ${x}, ${y}: ${compared.map[at]} levels apart`}),
+                               ...sides.flatMap(side => {
+        const rgb = [...side.rgb.subarray(3 * at, 3 * at + 3)];
+        return [element('span', {textContent: side.name}), element('i', {style: `background: rgb(${rgb})`}),
+                element('span', {textContent: `${rgb.join(' ')}   ${side.settings.number}`})];
+    }));
+}
+
+// The frontier: settings that are worth choosing on a board.
+const surveyed_pixels = 4096;
+const samplings = [{samples: 1, levels: 0}, {samples: 4, levels: 0}, {samples: 16, levels: 0}, {samples: 1, levels: 2},
+                   {samples: 1, levels: 3}];
+let found = [], survey_key = null, chosen_point = null;
+function survey() {
+    const [width, height] = shown.size === 'scene' ? [0, 0] : shown.size.split('x').map(Number);
+    const key = JSON.stringify([shown.text, shown.size]);
+    if (key === survey_key)
+        return;
+    survey_key = key;
+    found = [];
+    const settings = [truth, ...told.numbers.flatMap(number => samplings.map(s => ({...drawing, number, ...s})))];
+    surveyor.start({kind: 'frontier', width, height, pixels: surveyed_pixels, settings}, m => {
+        if (m.part !== undefined)
+            $('measuring').value = m.part;
+        if (m.error !== undefined) {
+            found.push({settings: m.settings, rays: m.rays, db: m.error === 0 ? 99 : 10 * Math.log10(255 ** 2 / m.error)});
+            show_frontier();
+        }
+        if (m.done || m.failed !== undefined) {
+            $('measuring').value = 0;
+            document.body.dataset.frontier = m.failed ?? 'done';
+        }
+    });
+    delete document.body.dataset.frontier;
+    show_frontier();
+}
+// Instructions a ray: those of this very scene where the study has them, else the mean of its scenes, and how far they are from it.
+function cost(board, number) {
+    const known = data.costs[board][number];
+    if (known === undefined)
+        return null;
+    if (!is_changed() && known[shown.scene] !== undefined)
+        return {mean: known[shown.scene], own: true};
+    const all = Object.values(known);
+    return {mean: Math.exp(all.reduce((sum, n) => sum + Math.log(n), 0) / all.length), own: false,
+            low: Math.min(...all), high: Math.max(...all)};
+}
+function show_frontier() {
+    const points = found.flatMap(p => {
+        const c = cost(shown.board, p.settings.number);
+        return c === null ? [] : [{...p, instructions: p.rays * c.mean}];
+    }).sort((p, q) => p.instructions - q.instructions);
+    let best = -Infinity;
+    for (const p of points) {
+        p.best = p.db > best + 0.1; // less is chance
+        best = Math.max(best, p.db);
+    }
+    const c = cost(shown.board, 'q32') ?? {}, scenes = Object.keys(data.costs[shown.board].q32 ?? {});
+    $('source').textContent = `Instructions: rays counted here, on ${spaced(surveyed_pixels)} pixels scattered over the picture, times `
+        + (c.own ? `the instructions a ray that the study measured for scenes/${shown.scene}.nff.`
+                 : `the study's instructions a ray, of which this scene has none of its own: the mean of ${scenes.join(', ')}, `
+                   + `which lie from ${spaced(c.low)} to ${spaced(c.high)} in q32. Take it as a first guess; make plan measures.`)
+        + ` Accuracy is measured on the same pixels against double with ${truth.samples} samples and depth ${truth.depth}.`;
+    $('plot').replaceChildren(points.length < 2 ? element('p', {className: 'hint', textContent: 'measuring …'}) : plot(points));
+    $('points').replaceChildren(...points.filter(p => p.best).map(p => element('li', {}, element('button', {
+        type: 'button', className: same(p.settings, chosen_point) ? 'now' : '', onclick: () => choose_point(p),
+    }, element('span', {textContent: describe_settings(p.settings)}), element('span', {textContent: `${p.db.toFixed(1)} dB`}),
+       element('span', {textContent: `${short(p.instructions)} instr.`})))));
+}
+const same = (p, q) => JSON.stringify(p) === JSON.stringify(q);
+function plot(points) {
+    const w = 560, h = 340, left = 44, bottom = 40, top = 10, right = 14;
+    const xs = points.map(p => Math.log10(p.instructions)), ys = points.map(p => p.db);
+    const [x0, x1] = [Math.min(...xs) - .1, Math.max(...xs) + .35], [y0, y1] = [Math.min(...ys) - 1.5, Math.max(...ys) + 1.5];
+    const x = p => left + (Math.log10(p) - x0) / (x1 - x0) * (w - left - right);
+    const y = db => top + (y1 - db) / (y1 - y0) * (h - top - bottom);
+    const svg = drawn('svg', {viewBox: `0 0 ${w} ${h}`, role: 'group', 'aria-label': 'Accuracy against instructions'});
+    for (let e = Math.floor(x0); e <= x1; e++)
+        for (const k of x1 - x0 < 2.2 ? [1, 2, 5] : [1])
+            if (Math.log10(k * 10 ** e) >= x0 && Math.log10(k * 10 ** e) <= x1)
+                svg.append(drawn('line', {class: 'grid', x1: x(k * 10 ** e), x2: x(k * 10 ** e), y1: top, y2: h - bottom}),
+                           drawn('text', {x: x(k * 10 ** e), y: h - bottom + 16, 'text-anchor': 'middle'}, short(k * 10 ** e).replace(/\.0+\b/, '')));
+    const step = y1 - y0 > 30 ? 10 : y1 - y0 > 12 ? 5 : 2;
+    for (let db = Math.ceil(y0 / step) * step; db <= y1; db += step)
+        svg.append(drawn('line', {class: 'grid', x1: left, x2: w - right, y1: y(db), y2: y(db)}),
+                   drawn('text', {x: left - 6, y: y(db) + 4, 'text-anchor': 'end'}, String(db)));
+    svg.append(drawn('text', {x: w - right, y: h - 4, 'text-anchor': 'end'}, `instructions a picture, ${data.boards[shown.board]}`),
+               drawn('text', {x: 0, y: top + 4}, 'dB'));
+    const front = points.filter(p => p.best);
+    svg.append(drawn('path', {class: 'front', d: front.map((p, i) =>
+        i === 0 ? `M${x(p.instructions)} ${y(p.db)}` : `H${x(p.instructions)}V${y(p.db)}`).join('')}));
+    for (const p of [...points.filter(p => !p.best), ...front]) {
+        const name = describe_settings(p.settings);
+        const group = drawn('g', {class: `point${p.best ? ' best' : ''}${same(p.settings, chosen_point) ? ' now' : ''}`,
+                                  role: 'button', tabindex: 0,
+                                  'aria-label': `${name}: ${p.db.toFixed(1)} dB, ${short(p.instructions)} instructions`},
+                            drawn('title', {}, `${name}: ${p.db.toFixed(1)} dB, ${short(p.instructions)} instructions`),
+                            drawn('circle', {cx: x(p.instructions), cy: y(p.db), r: p.best ? 5 : 4}));
+        if (p.best)
+            group.append(drawn('text', {x: x(p.instructions) + 8, y: y(p.db) + 14}, name));
+        group.onclick = () => choose_point(p);
+        group.onkeydown = e => {
+            if (e.key === 'Enter' || e.key === ' ') {
+                e.preventDefault();
+                choose_point(p);
+            }
+        };
+        svg.append(group);
+    }
+    return svg;
+}
+function run_line(s, built) {
+    const differs = (name, value) => value === undefined ? '' : ` ${name}=${value}`;
+    return `make run SCENE=${scene_file()} NUMBER=${s.number} BOARD=${shown.board} SIZE=${built.width}x${built.height}`
+        + differs('SAMPLES', s.levels === 0 && s.samples !== 1 ? s.samples : undefined)
+        + differs('ADAPTIVE', s.levels === 0 ? undefined : s.threshold === 1 / 16 ? s.levels : `${s.levels},${s.threshold}`)
+        + differs('DEPTH', s.depth !== drawing.depth ? s.depth : undefined)
+        + differs('CUTOFF', s.cutoff !== drawing.cutoff ? s.cutoff : undefined);
+}
+function show_chosen(p) {
+    chosen_point = p?.settings ?? null;
+    $('run').hidden = false;
+    $('chosen').textContent = p === null ? 'Picture A on this board:'
+        : `${describe_settings(p.settings)}: ${p.db.toFixed(1)} dB for ${short(p.instructions)} instructions (${short(p.rays)} rays).`
+          + ' Picture B is what it is measured against.';
+    $('run').textContent = run_line(shown.sides[0], sides[0].built ?? {width: 320, height: 240})
+        + (is_changed() ? '\n# with the text saved as scene.nff' : '');
+}
+function choose_point(p) {
+    Object.assign(shown.sides[0], p.settings);
+    const drawn_already = same(shown.sides[1], truth);
+    Object.assign(shown.sides[1], truth);
+    show_chosen(p);
+    show_frontier();
+    sides[0].draw();
+    if (!drawn_already || !sides[1].done)
+        sides[1].draw();
+}
+
+// A link holds all that is shown.
+let link_timer = 0;
+function save_link() {
+    clearTimeout(link_timer);
+    link_timer = setTimeout(() => {
+        const {scene, text, ...rest} = shown, kept = is_changed() ? {scene, text, ...rest} : {scene, ...rest};
+        history.replaceState(null, '', `#${encodeURIComponent(JSON.stringify(kept))}`);
+        $('save').href = `data:text/plain;charset=utf-8,${encodeURIComponent(shown.text)}`;
+    }, 200);
+}
+function read_link() {
+    try {
+        const kept = JSON.parse(decodeURIComponent(location.hash.slice(1)));
+        if (data.scenes[kept.scene] === undefined)
+            return;
+        shown.scene = kept.scene;
+        shown.text = typeof kept.text === 'string' ? kept.text : data.scenes[kept.scene];
+        if (sizes.includes(kept.size))
+            shown.size = kept.size;
+        if (data.boards[kept.board] !== undefined)
+            shown.board = kept.board;
+        kept.sides.forEach((side, i) => {
+            for (const key of Object.keys(drawing))
+                if (typeof side[key] === typeof drawing[key] && (key !== 'number' || told.numbers.includes(side[key])))
+                    shown.sides[i][key] = side[key];
+        });
+    } catch { // none, or no link of this page: what is shown first
+    }
+}
+
+const sizes = ['80x60', '160x120', '320x240', '640x480', 'scene'];
+let sides = [];
+function draw_all() {
+    compared = null;
+    survey_key = null;
+    surveyor.stop();
+    show_chosen(null);
+    sides.forEach(side => side.draw());
+}
+function show_all() {
+    $('text').value = shown.text;
+    $('load').value = shown.scene;
+    $('size').value = shown.size;
+    $('board').value = shown.board;
+    draw_all();
+}
+let typing = 0;
+function set_text(text, pause) {
+    shown.text = text;
+    state('drawing');
+    clearTimeout(typing);
+    typing = setTimeout(draw_all, pause);
+}
+
+async function start() {
+    const stream = new Blob([unpacked(data.wasm)]).stream().pipeThrough(new DecompressionStream('gzip'));
+    const compiled = await WebAssembly.compile(await new Response(stream).arrayBuffer());
+    const {exports: wasm} = await WebAssembly.instantiate(compiled, {page: {size: () => -1, read: () => {}}});
+    const all = new Uint8Array(wasm.memory.buffer), at = wasm.describe();
+    told = JSON.parse(new TextDecoder().decode(all.subarray(at, all.indexOf(0, at))));
+    module = compiled;
+    worker_url = URL.createObjectURL(new Blob([$('worker').textContent], {type: 'text/javascript'}));
+    read_link();
+
+    $('load').append(...Object.keys(data.scenes).map(name => new Option(name, name)));
+    $('size').append(...sizes.map(size => new Option(size === 'scene' ? 'as the text says' : size.replace('x', ' × '), size)));
+    $('board').append(...Object.entries(data.boards).map(([board, label]) => new Option(`${label} (${board})`, board)));
+    sides = [new Side(0), new Side(1)];
+    $('pictures').append(...sides.map(side => side.root));
+    choose_pixels($('map'));
+    show_scale();
+
+    $('text').oninput = () => set_text($('text').value, 250);
+    $('load').onchange = () => {
+        shown.scene = $('load').value;
+        $('text').value = data.scenes[shown.scene];
+        $('text').scrollTop = 0;
+        set_text($('text').value, 0);
+    };
+    $('size').onchange = () => {
+        shown.size = $('size').value;
+        draw_all();
+    };
+    $('board').onchange = () => {
+        shown.board = $('board').value;
+        show_chosen(null);
+        show_frontier();
+        save_link();
+    };
+    $('places').oninput = () => {
+        $('places-dial').querySelector('output').textContent = $('places').value;
+        $('text').value = shown.text.replace(/^([ \t]*panel[ \t]+)\d+/gm, `$1${$('places').value}`);
+        set_text($('text').value, 250);
+    };
+    $('link').onclick = async () => {
+        await new Promise(later => setTimeout(later, 250));
+        await navigator.clipboard?.writeText(location.href).catch(() => {});
+        $('link').textContent = navigator.clipboard === undefined ? 'The address holds it' : 'Copied';
+        setTimeout(() => $('link').textContent = 'Copy a link to this', 1500);
+    };
+    onhashchange = () => {
+        read_link();
+        show_all();
+    };
+    show_all();
+}
+start();

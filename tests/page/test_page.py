@@ -1,0 +1,240 @@
+"""The page (make page) in headless Chromium: its pictures are the command's, byte for byte; its figures those that follow from
+them; errors, dials, the link and the frontier do what they say; the console stays empty."""
+
+import base64
+import json
+import math
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import time
+import unittest
+
+PAGE = os.path.abspath("build/page/index.html")
+BROWSER, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+try:
+    from selenium import webdriver
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.select import Select
+    MISSING = None if BROWSER and DRIVER else "no chromium and chromium-driver"
+except ImportError:
+    MISSING = "no python3-selenium"
+if MISSING is None and not os.path.exists(PAGE):
+    MISSING = "no page: it needs Debian's lld, libc++-14-dev-wasm32 and wasi-libc"
+
+SIZE = "80x60"
+NUMBERS = json.loads(subprocess.run(["build/qray", "--describe"], stdout=subprocess.PIPE, check=True).stdout)["numbers"]
+
+
+def picture(text, *options):
+    """The command's picture of a scene text, without its header."""
+    ppm = subprocess.run([os.path.abspath("build/qray"), "-", "-q", "-o", "-", "-s", SIZE, *options], input=text.encode(), cwd="scenes",
+                         stdout=subprocess.PIPE, check=True).stdout
+    return ppm.split(b"\n", 3)[3]
+
+
+def psnr(a, b):
+    squares = sum((p - q) ** 2 for p, q in zip(a, b))
+    return 10 * math.log10(255 ** 2 * len(a) / squares)
+
+
+def scene(name):
+    with open(f"scenes/{name}.nff", encoding="utf-8") as file:
+        return file.read()
+
+
+@unittest.skipIf(MISSING, f"{MISSING}; `make deps` installs what is needed")
+class PageTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        options = webdriver.ChromeOptions()
+        options.binary_location = BROWSER
+        for switch in ("--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1280,900"):
+            options.add_argument(switch)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        cls.driver = webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.driver.quit()
+
+    def setUp(self):
+        self.driver.get("about:blank")
+        self.driver.get(f"file://{PAGE}")
+        self.wait("done")
+        self.choose("size", SIZE)
+
+    def tearDown(self):
+        messages = self.driver.get_log("browser")
+        self.assertEqual(messages, [])
+
+    def script(self, text, *arguments):
+        return self.driver.execute_script(text, *arguments)
+
+    def wait(self, state, of="document.body.dataset.state"):
+        end = time.monotonic() + 60
+        while self.script(f"return {of}") != state:
+            self.assertLess(time.monotonic(), end, f"{of} is {self.script(f'return {of}')}, not {state}")
+            time.sleep(0.01)
+
+    def element(self, css):
+        return self.driver.find_element(By.CSS_SELECTOR, css)
+
+    def choose(self, element, value, state="done"):
+        Select(self.element(f"#{element}")).select_by_value(value)
+        self.wait(state)
+
+    def number(self, side, number):
+        self.script("arguments[0].click()", self.element(f"input[name=number-{side}][value={number}]"))
+        self.wait("done")
+
+    def text(self, text, state="done"):
+        self.script("const t = document.getElementById('text'); t.value = arguments[0]; t.dispatchEvent(new Event('input'))", text)
+        self.wait(state)
+
+    def bytes(self, side):
+        return base64.b64decode(self.script(f"return btoa(String.fromCharCode(...sides['AB'.indexOf('{side}')].rgb))"))
+
+    def figure(self, name):
+        return self.script("return [...document.querySelectorAll('#figures dt')].find(e => e.textContent === arguments[0])"
+                           ".nextSibling.textContent", name)
+
+    def screenshot(self, name, width):
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                    {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500})
+        image = self.driver.execute_cdp_cmd("Page.captureScreenshot", {"captureBeyondViewport": True})
+        with open(f"build/page/{name}.png", "wb") as file:
+            file.write(base64.b64decode(image["data"]))
+        widest = self.script("return document.documentElement.scrollWidth")
+        self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+        self.assertLessEqual(widest, width)
+
+    def test_it_is_one_small_file(self):
+        self.assertLess(os.path.getsize(PAGE), 1_500_000)
+        with open(PAGE, encoding="utf-8") as file:
+            page = file.read()
+        code = re.sub(r'<script type="application/json".*?</script>', "", page, flags=re.S)
+        self.assertEqual(re.findall(r"\b(?:https?:)?//[a-z][^\s'\"]*", code.replace("http://www.w3.org/2000/svg", "")), [])
+        self.assertEqual(self.script("return performance.getEntriesByType('resource').filter(e => !/^(data|blob):/.test(e.name)).length"), 0)
+
+    def test_pictures_are_those_of_the_command(self):
+        room = scene("cornell").replace("radiosity 0.3", "radiosity 1.2")
+        self.assertNotEqual(room, scene("cornell"))
+        for name in ("showcase", "knot", "cornell"):
+            self.choose("size", SIZE)
+            if name == "cornell":
+                self.text(room)
+            else:
+                self.choose("load", name)
+            for i, number in enumerate(NUMBERS):
+                with self.subTest(scene=name, number=number):
+                    side = "AB"[i % 2]
+                    self.number(side, number)
+                    self.assertEqual(self.bytes(side), picture(room if name == "cornell" else scene(name), "-n", number))
+
+    def test_dials(self):
+        self.choose("load", "soft")
+        one = self.bytes("B")
+        slider = self.element("#samples-B")
+        slider.send_keys(Keys.ARROW_RIGHT)
+        self.wait("done")
+        four = picture(scene("soft"), "-r", "4")
+        self.assertNotEqual(self.bytes("B"), one)
+        self.assertEqual(self.bytes("B"), four)
+        self.element("#levels-A").send_keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+        self.wait("done")
+        adaptive = picture(scene("soft"), "-n", "q16", "-a", "2")
+        self.assertEqual(self.bytes("A"), adaptive)
+        self.assertEqual(self.figure("PSNR"), f"{psnr(adaptive, four):.1f} dB")
+        self.assertFalse(self.element("#samples-A").is_displayed())
+        self.assertTrue(self.element("#threshold-A").is_displayed())
+        self.assertTrue(self.element("#depth-A").is_displayed())
+        # The panel's places stand in the text.
+        self.element("#places").send_keys(Keys.HOME)
+        self.wait("done")
+        self.assertIn("\npanel 1 ", self.script("return shown.text"))
+        self.assertEqual(self.bytes("B"), picture(scene("soft").replace("\npanel 3 ", "\npanel 1 "), "-r", "4"))
+        # Where nothing is mirrored, there is no depth to choose; nor places without a panel.
+        self.choose("load", "phong")
+        self.assertFalse(self.element("#depth-B").is_displayed())
+        self.assertFalse(self.element("#places").is_displayed())
+
+    def test_an_error_of_the_text(self):
+        wrong = scene("balls").replace("\ns ", "\ns x ", 1)
+        with tempfile.TemporaryDirectory() as folder:
+            with open(f"{folder}/scene.nff", "w", encoding="utf-8") as file:
+                file.write(wrong)
+            said = subprocess.run([os.path.abspath("build/qray"), "scene.nff"], cwd=folder, stderr=subprocess.PIPE,
+                                  check=False).stderr.decode().rstrip()
+        self.assertRegex(said, r"^scene\.nff:\d+:3: expected x of the centre of a sphere, found 'x'")
+        self.text(wrong, "error")
+        message = self.element("#message")
+        self.assertEqual(message.text, said)
+        # Its place is a button that leads there.
+        message.find_element(By.TAG_NAME, "button").click()
+        self.assertEqual(self.script("const t = document.activeElement; return t.value.slice(t.selectionStart, t.selectionEnd)"), "x")
+        self.driver.switch_to.active_element.send_keys(Keys.DELETE, Keys.DELETE)
+        self.wait("done")
+        self.assertEqual(self.bytes("B"), picture(scene("balls")))
+
+    def test_a_change_ends_what_is_being_drawn(self):
+        self.script("shown.sides[1].samples = 4096; sides[1].draw()")
+        self.wait(True, "sides[1].progress.value > 0")
+        self.text(scene("glass"), "drawing")
+        self.script("shown.sides[1].samples = 1; sides[1].draw()")
+        self.wait("done")
+        self.assertEqual(self.bytes("B"), picture(scene("glass")))
+
+    def test_a_number_system_that_the_scene_does_not_fit(self):
+        text = scene("balls") + "far 1e9\nplane 0 -50 0  0 1 0\n"
+        said = subprocess.run(["build/qray", "-", "-o", "-", "-n", "q16"], input=text.encode(), stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, check=False).stderr.decode()
+        self.assertIn("q16 has lengths in steps of", said)
+        self.text(text, "error")
+        self.assertIn(self.script("return sides[0].facts.textContent"), said)
+        self.assertEqual(self.bytes("B"), picture(text))
+
+    def test_the_link_holds_all(self):
+        text = scene("glass") + "# ö & <b> 'mine'\n"
+        self.text(text)
+        self.number("A", "double")
+        self.choose("board", "rv32_virt")
+        self.wait(True, "decodeURIComponent(location.hash).includes('rv32_virt')")
+        link, before = self.driver.current_url, self.bytes("A")
+        self.driver.get("about:blank")
+        self.driver.get(link)
+        self.wait("done")
+        self.assertEqual(self.script("return [shown.text, shown.board, shown.size, shown.sides[0].number]"),
+                         [text, "rv32_virt", SIZE, "double"])
+        self.assertEqual(self.bytes("A"), before)
+
+    def test_the_frontier(self):
+        self.wait("done", "document.body.dataset.frontier")
+        points = self.driver.find_elements(By.CSS_SELECTOR, "#points button")
+        self.assertGreaterEqual(len(points), 3)
+        self.screenshot("desktop", 1280)
+        self.screenshot("phone", 390)
+        number = re.match(r"\w+", points[1].text)[0]
+        self.assertIn(number, NUMBERS)
+        told = float(re.search(r"([\d.]+) dB", points[1].text)[1])
+        self.script("arguments[0].click()", points[1])
+        self.wait("done")
+        a, b = (self.script(f"return shown.sides[{i}]") for i in (0, 1))
+        self.assertEqual((b["number"], b["samples"], b["depth"]), ("double", 64, 8))
+        sampling = ["-a", str(a["levels"])] if a["levels"] else ["-r", str(a["samples"])]
+        drawn = picture(scene("showcase"), "-n", number, *sampling)
+        self.assertEqual(self.bytes("A"), drawn)
+        exact = picture(scene("showcase"), "-n", "double", "-r", "64", "-d", "8", "--cutoff", "0")
+        self.assertEqual(self.figure("PSNR"), f"{psnr(drawn, exact):.1f} dB")
+        # 4 096 of 4 800 pixels tell nearly all.
+        self.assertAlmostEqual(told, psnr(drawn, exact), delta=0.5)
+        made = {"-a": f" ADAPTIVE={a['levels']}", "-r": f" SAMPLES={a['samples']}" if a["samples"] != 1 else ""}[sampling[0]]
+        self.assertEqual(self.element("#run").text,
+                         f"make run SCENE=scenes/showcase.nff NUMBER={number} BOARD=microbit SIZE={SIZE}{made}")
+
+
+if __name__ == "__main__":
+    unittest.main()
