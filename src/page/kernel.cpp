@@ -5,7 +5,7 @@ namespace qray::page {
 
 namespace {
 
-using N = QRAY_NUMBER;
+using N = PAGE_TYPE;
 
 void pixels(uint32_t x, uint32_t y, uint32_t stride, uint32_t count, uint8_t* rgb, cli::RayCounts& rays)
 {
@@ -16,7 +16,7 @@ void pixels(uint32_t x, uint32_t y, uint32_t stride, uint32_t count, uint8_t* rg
 
 } // namespace
 
-extern const Kernel QRAY_KERNEL;
-const Kernel QRAY_KERNEL{QRAY_NUMBER_NAME, cli::build_scene<N>, pixels};
+extern const Kernel PAGE_KERNEL;
+const Kernel PAGE_KERNEL{PAGE_NAME, cli::build_scene<N>, pixels};
 
 } // namespace qray::page

@@ -50,15 +50,15 @@ bool make_room(scene::Room& room, size_t size)
 
 namespace qray::page {
 
-#define QRAY_ONE(name) extern const Kernel kernel_##name;
-QRAY_KERNELS
-#undef QRAY_ONE
+#define PAGE_ONE(name) extern const Kernel kernel_##name;
+PAGE_KERNELS
+#undef PAGE_ONE
 
 namespace {
 
-#define QRAY_ONE(name) &kernel_##name,
-constexpr const Kernel* kernels[] = {QRAY_KERNELS};
-#undef QRAY_ONE
+#define PAGE_ONE(name) &kernel_##name,
+constexpr const Kernel* kernels[] = {PAGE_KERNELS};
+#undef PAGE_ONE
 static_assert(std::size(kernels) == std::size(cli::number_names));
 
 scene::Description description;
@@ -209,6 +209,11 @@ QRAY_EXPORT(build) const char* build(const char* number, uint32_t width, uint32_
         return answer_error("no such number system");
     if (!kernel->build(description, settings, built, error))
         return answer_error(error.text);
+    constexpr uint32_t most = 1 << 22; // pixels that a browser shows in reasonable time
+    if (uint64_t{built.width} * built.height > most) {
+        snprintf(error.text, sizeof error.text, "%u x %u pixels; this page draws at most %u", built.width, built.height, most);
+        return answer_error(error.text);
+    }
     if (!cli::make_room(picture, size_t{3} * built.width * built.height))
         return answer_error("not enough memory for the picture");
     rays = {};

@@ -33,8 +33,8 @@ const scene_file = () => is_changed() ? 'scene.nff' : `scenes/${shown.scene}.nff
 const squares = [1, 4, 9, 16, 25, 36, 49, 64];
 const cutoffs = [0, 0.0005, 0.0014, 0.004, 0.01, 0.03, 0.1, 0.3, 1];
 const dials = {
-    samples: {label: 'Samples a pixel', values: squares, when: s => s.levels === 0},
-    levels: {label: 'Adaptive levels', values: [0, 1, 2, 3, 4, 5, 6], text: v => v === 0 ? 'off' : v},
+    samples: {label: 'Samples', values: squares, when: s => s.levels === 0},
+    levels: {label: 'Adaptive', values: [0, 1, 2, 3, 4, 5, 6], text: v => v === 0 ? 'off' : `${v} level${v === 1 ? '' : 's'}`},
     threshold: {label: 'Threshold', values: Array.from({length: 33}, (_, i) => i / 64), text: v => v.toFixed(3),
                 when: s => s.levels > 1},
     depth: {label: 'Depth', values: Array.from({length: 16}, (_, i) => i + 1), when: (s, scene) => scene.spawns},
@@ -106,7 +106,7 @@ class Side {
             type: 'radio', name: `number-${this.name}`, value: number,
             onchange: () => this.change({number}),
         }));
-        numbers.append(...this.radios.map(radio => element('label', {}, radio, radio.value)));
+        numbers.append(...this.radios.map(radio => element('label', {}, radio, element('span', {textContent: radio.value}))));
         this.dials = Object.entries(dials).map(([key, dial]) => {
             const range = element('input', {type: 'range', min: 0, max: dial.values.length - 1, id: `${key}-${this.name}`});
             const output = element('output');
@@ -145,6 +145,7 @@ class Side {
         this.show_dials(this.scene);
         this.root.classList.add('stale');
         this.progress.value = 0;
+        this.title.textContent = describe_settings(this.settings);
         save_link();
         this.tracer.start({kind: 'draw', width, height, settings: this.settings}, m => this.take(m));
     }
@@ -171,6 +172,8 @@ class Side {
             this.rgb = new Uint8Array(3 * m.built.width * m.built.height);
             this.show_dials(m.scene);
             scene_read(this);
+            if (this.index === 0)
+                show_run();
         }
         if (m.rgb !== undefined) {
             this.rgb.set(m.rgb, m.first * this.built.width * 3);
@@ -184,7 +187,6 @@ class Side {
             this.ms = m.ms;
             this.rays = rays;
             this.done = true;
-            this.title.textContent = describe_settings(this.settings);
             this.canvas.setAttribute('aria-label', `Picture ${this.name}: ${shown.scene}, ${describe_settings(this.settings)}. Arrow keys choose a pixel.`);
             this.facts.textContent = `${(m.ms / 1000).toFixed(2)} s in this browser · ${spaced(rays)} rays`;
             this.facts.title = m.rays.map((n, i) => `${kinds[i]}: ${spaced(n)}`).join(', ');
@@ -254,7 +256,7 @@ function show_scale() {
     document.querySelector('.ticks').replaceChildren(...[1, 3, 7, 15, 31, 63, 127].map(level => element('b', {
         textContent: level, style: `left: ${Math.log2(1 + level) / 8 * 100}%`})));
 }
-let compared = null, chosen_pixel = null;
+let compared = null, chosen_pixel = null; // of the three pictures; at first the worst
 function compare() {
     const [a, b] = sides;
     if (!a.done || !b.done)
@@ -282,6 +284,8 @@ function compare() {
                   ['Rays, A : B', `${spaced(a.rays)} : ${spaced(b.rays)}`]);
         $('figures').replaceChildren(...rows.flatMap(([name, value]) => [element('dt', {textContent: name}),
                                                                         element('dd', {textContent: value})]));
+        if (chosen_pixel === null)
+            chosen_pixel = worst_pixel();
         show_pixel();
         state('done');
         survey();
@@ -301,6 +305,21 @@ function choose_pixels(canvas) {
         choose(x + step[0] * far, y + step[1] * far);
     };
 }
+function worst_pixel() {
+    const at = compared.map.indexOf(compared.most), {width} = $('map');
+    return [at % width, Math.floor(at / width)];
+}
+// What is around a pixel, large.
+const lens_reach = 7;
+function lens(label, colour_at) {
+    const edge = 2 * lens_reach + 1, canvas = element('canvas', {width: edge, height: edge}), {width, height} = $('map');
+    const rgb = [];
+    for (let y = chosen_pixel[1] - lens_reach; y <= chosen_pixel[1] + lens_reach; y++)
+        for (let x = chosen_pixel[0] - lens_reach; x <= chosen_pixel[0] + lens_reach; x++)
+            rgb.push(...(x < 0 || y < 0 || x >= width || y >= height ? [128, 128, 128] : colour_at(y * width + x)));
+    paint(canvas, new Uint8Array(rgb), 0);
+    return element('figure', {}, canvas, element('figcaption', {textContent: label}));
+}
 function choose(x, y) {
     const {width, height} = $('map');
     chosen_pixel = [Math.max(0, Math.min(x, width - 1)), Math.max(0, Math.min(y, height - 1))];
@@ -309,13 +328,14 @@ function choose(x, y) {
 function show_pixel() {
     if (chosen_pixel === null || compared === null || sides.some(s => !s.done || s.failed))
         return;
-    const [x, y] = chosen_pixel, at = y * sides[0].built.width + x;
-    $('pixel').replaceChildren(element('b', {textContent: `Pixel ${x}, ${y}: ${compared.map[at]} levels apart`}),
-                               ...sides.flatMap(side => {
-        const rgb = [...side.rgb.subarray(3 * at, 3 * at + 3)];
-        return [element('span', {textContent: side.name}), element('i', {style: `background: rgb(${rgb})`}),
-                element('span', {textContent: `${rgb.join(' ')}   ${side.settings.number}`})];
-    }));
+    const {width, height} = sides[0].built;
+    chosen_pixel = [Math.min(chosen_pixel[0], width - 1), Math.min(chosen_pixel[1], height - 1)];
+    const [x, y] = chosen_pixel, at = y * width + x, apart = compared.map[at];
+    const of = (side, i) => [...side.rgb.subarray(3 * i, 3 * i + 3)];
+    $('pixel').replaceChildren(
+        element('b', {textContent: `Pixel ${x}, ${y}: ${apart === 0 ? 'equal' : `${apart} level${apart === 1 ? '' : 's'} apart`}`}),
+        ...sides.map(side => lens(`${side.name}: ${of(side, at).join(' ')}`, i => of(side, i))),
+        lens('difference', i => colours[compared.map[i]]));
 }
 
 // The frontier: settings that are worth choosing on a board.
@@ -373,15 +393,19 @@ function show_frontier() {
                  : `the study's instructions a ray, of which this scene has none of its own: the mean of ${scenes.join(', ')}, `
                    + `which lie from ${spaced(c.low)} to ${spaced(c.high)} in q32. Take it as a first guess; make plan measures.`)
         + ` Accuracy is measured on the same pixels against double with ${truth.samples} samples and depth ${truth.depth}.`;
-    $('plot').replaceChildren(points.length < 2 ? element('p', {className: 'hint', textContent: 'measuring …'}) : plot(points));
+    $('plot').replaceChildren(points.length < 2 ? element('p', {className: 'hint', textContent: 'measuring …'}) : plot(points),
+                              element('p', {className: 'key'}, ...[...new Set(points.map(p => p.settings.number))].map(number =>
+        element('span', {textContent: number, style: `--number: var(--${number}, var(--other))`}))));
     $('points').replaceChildren(...points.filter(p => p.best).map(p => element('li', {}, element('button', {
         type: 'button', className: same(p.settings, chosen_point) ? 'now' : '', onclick: () => choose_point(p),
     }, element('span', {textContent: describe_settings(p.settings)}), element('span', {textContent: `${p.db.toFixed(1)} dB`}),
        element('span', {textContent: `${short(p.instructions)} instr.`})))));
+    for (const [i, p] of points.filter(p => p.best).entries())
+        $('points').children[i].style.setProperty('--number', `var(--${p.settings.number}, var(--other))`);
 }
 const same = (p, q) => JSON.stringify(p) === JSON.stringify(q);
 function plot(points) {
-    const w = 560, h = 340, left = 44, bottom = 40, top = 10, right = 14;
+    const w = Math.max(300, $('plot').clientWidth), h = Math.min(360, Math.round(w * .72)), left = 44, bottom = 40, top = 10, right = 14;
     const xs = points.map(p => Math.log10(p.instructions)), ys = points.map(p => p.db);
     const [x0, x1] = [Math.min(...xs) - .1, Math.max(...xs) + .35], [y0, y1] = [Math.min(...ys) - 1.5, Math.max(...ys) + 1.5];
     const x = p => left + (Math.log10(p) - x0) / (x1 - x0) * (w - left - right);
@@ -401,15 +425,20 @@ function plot(points) {
     const front = points.filter(p => p.best);
     svg.append(drawn('path', {class: 'front', d: front.map((p, i) =>
         i === 0 ? `M${x(p.instructions)} ${y(p.db)}` : `H${x(p.instructions)}V${y(p.db)}`).join('')}));
+    const marked = [];
     for (const p of [...points.filter(p => !p.best), ...front]) {
         const name = describe_settings(p.settings);
         const group = drawn('g', {class: `point${p.best ? ' best' : ''}${same(p.settings, chosen_point) ? ' now' : ''}`,
-                                  role: 'button', tabindex: 0,
+                                  role: 'button', tabindex: 0, style: `--number: var(--${p.settings.number}, var(--other))`,
                                   'aria-label': `${name}: ${p.db.toFixed(1)} dB, ${short(p.instructions)} instructions`},
                             drawn('title', {}, `${name}: ${p.db.toFixed(1)} dB, ${short(p.instructions)} instructions`),
                             drawn('circle', {cx: x(p.instructions), cy: y(p.db), r: p.best ? 5 : 4}));
-        if (p.best)
-            group.append(drawn('text', {x: x(p.instructions) + 8, y: y(p.db) + 14}, name));
+        // A name goes where there is room, or to the list alone.
+        const at = [x(p.instructions) + 8, y(p.db) + 15];
+        if (p.best && !marked.some(m => Math.abs(m[0] - at[0]) < 100 && Math.abs(m[1] - at[1]) < 13)) {
+            group.append(drawn('text', {x: at[0], y: at[1]}, name.replace(' samples', '×').replace('adaptive ', 'a')));
+            marked.push(at);
+        }
         group.onclick = () => choose_point(p);
         group.onkeydown = e => {
             if (e.key === 'Enter' || e.key === ' ') {
@@ -433,8 +462,11 @@ function show_chosen(p) {
     chosen_point = p?.settings ?? null;
     $('run').hidden = false;
     $('chosen').textContent = p === null ? 'Picture A on this board:'
-        : `${describe_settings(p.settings)}: ${p.db.toFixed(1)} dB for ${short(p.instructions)} instructions (${short(p.rays)} rays).`
+        : `Picture A, ${describe_settings(p.settings)}: ${p.db.toFixed(1)} dB for ${short(p.instructions)} instructions (${short(p.rays)} rays).`
           + ' Picture B is what it is measured against.';
+    show_run();
+}
+function show_run() {
     $('run').textContent = run_line(shown.sides[0], sides[0].built ?? {width: 320, height: 240})
         + (is_changed() ? '\n# with the text saved as scene.nff' : '');
 }
@@ -470,7 +502,7 @@ function read_link() {
             shown.size = kept.size;
         if (data.boards[kept.board] !== undefined)
             shown.board = kept.board;
-        kept.sides.forEach((side, i) => {
+        kept.sides?.forEach((side, i) => {
             for (const key of Object.keys(drawing))
                 if (typeof side[key] === typeof drawing[key] && (key !== 'number' || told.numbers.includes(side[key])))
                     shown.sides[i][key] = side[key];
@@ -482,7 +514,7 @@ function read_link() {
 const sizes = ['80x60', '160x120', '320x240', '640x480', 'scene'];
 let sides = [];
 function draw_all() {
-    compared = null;
+    compared = chosen_pixel = null;
     survey_key = null;
     surveyor.stop();
     show_chosen(null);
@@ -519,6 +551,7 @@ async function start() {
     sides = [new Side(0), new Side(1)];
     $('pictures').append(...sides.map(side => side.root));
     choose_pixels($('map'));
+    $('worst').onclick = () => compared !== null && choose(...worst_pixel());
     show_scale();
 
     $('text').oninput = () => set_text($('text').value, 250);
@@ -549,10 +582,16 @@ async function start() {
         $('link').textContent = navigator.clipboard === undefined ? 'The address holds it' : 'Copied';
         setTimeout(() => $('link').textContent = 'Copy a link to this', 1500);
     };
+    let width = innerWidth;
+    onresize = () => {
+        if (width !== innerWidth) // not where a phone's bars come and go
+            show_frontier();
+        width = innerWidth;
+    };
     onhashchange = () => {
         read_link();
         show_all();
     };
     show_all();
 }
-start();
+start().catch(error => show_message(`This page does not start here: ${error.message}. It wants a browser of 2023 or later.`, true));

@@ -22,12 +22,12 @@ build/page/qray.wasm: $(PAGE_OBJECTS) src/page/page.mk
 build/page/obj/%.o: src/%.cpp build/obj/flags
 	@echo "  compile $< for WebAssembly"
 	@mkdir -p $(@D)
-	@$(WASM_CXX) -include src/page/from_chars.hpp -DQRAY_KERNELS='$(foreach n,$(PAGE_NUMBERS),QRAY_ONE($n))' -c $< -o $@
+	@$(WASM_CXX) -include src/page/from_chars.hpp -DPAGE_KERNELS='$(foreach n,$(PAGE_NUMBERS),PAGE_ONE($n))' -c $< -o $@
 build/page/obj/kernel_%.o: src/page/kernel.cpp build/obj/flags
 	@echo "  compile $< for WebAssembly: $*"
 	@mkdir -p $(@D)
-	@$(WASM_CXX) -DQRAY_NUMBER=$(subst float,Float,$(subst double,Double,$*)) -DQRAY_NUMBER_NAME='"$*"' \
-	    -DQRAY_KERNEL=kernel_$* -c $< -o $@
+	@$(WASM_CXX) -DPAGE_TYPE=$(subst float,Float,$(subst double,Double,$*)) -DPAGE_NAME='"$*"' \
+	    -DPAGE_KERNEL=kernel_$* -c $< -o $@
 PACKAGES += lld libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32 wasi-libc chromium chromium-driver python3-selenium
 # Where these cannot be installed, its test is skipped.
 TEST_NEEDS += $(if $(and $(shell command -v wasm-ld),$(wildcard /usr/lib/wasm32-wasi/libc.a)),build/page/index.html)
