@@ -54,6 +54,7 @@ $(LANED): USED = $(FLAGS) $(PROGRAM)
 $(LANED): build/obj/%.o: %.cpp build/obj/flags; $(IN_LANES)
 $(LANED:build/%=build/sanitized/%): USED = $(SANITIZE) -Og
 $(LANED:build/%=build/sanitized/%): build/sanitized/obj/%.o: %.cpp build/obj/flags; $(IN_LANES)
+build/obj/src/cli/observe.o: OPTIMISE := -O1 # draws one pixel
 # Rewritten when the flags change, so that everything is compiled again.
 build/obj/flags: FORCE
 	@mkdir -p $(@D)

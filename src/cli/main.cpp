@@ -1,6 +1,7 @@
-// qray: draws a scene, or compiles it to a C++ header that is drawn without an operating system.
+// qray: draws a scene, compiles it to a C++ header that is drawn without an operating system, or explains a pixel.
 #include "../scene/reader.hpp"
 #include "draw.hpp"
+#include "explain.hpp"
 #include "input.hpp"
 #include "stats.hpp"
 
@@ -56,6 +57,23 @@ const char* output_name(const Options& options, const char* end)
     return nullptr;
 }
 
+// Builds the scene that was read; `again`, in another number system.
+int build(const Options& options, const Renderer& renderer, Built& built, bool again = false)
+{
+    scene::Error error;
+    if (!renderer.build(description, options.settings, built, error)) {
+        fprintf(stderr, "%s: %s\n", scene::ShownName(options.scene).text, error.text);
+        return 1;
+    }
+    if (options.quiet)
+        return go_on;
+    if (!again)
+        for (const scene::Warning* w : {&description.passed_over, &description.clamped, &description.empty, &description.nonplanar})
+            warn(options.scene, *w);
+    warn(options.scene, built.lost);
+    return go_on;
+}
+
 // Reads the scene and builds it. Returns `go_on`, or the status to exit with, having printed why: also where `out` is
 // the scene itself.
 int load(const Options& options, const Renderer& renderer, const char* out, Built& built)
@@ -72,15 +90,11 @@ int load(const Options& options, const Renderer& renderer, const char* out, Buil
     const double start = now();
     const bool solved = solve_radiosity(description, solving, error);
     solving_seconds = now() - start;
-    if (!solved || !renderer.build(description, options.settings, built, error)) {
+    if (!solved) {
         fprintf(stderr, "%s: %s\n", scene::ShownName(options.scene).text, error.text);
         return 1;
     }
-    if (!options.quiet)
-        for (const scene::Warning* w : {&description.passed_over, &description.clamped, &description.empty, &description.nonplanar,
-                                       &built.lost})
-            warn(options.scene, *w);
-    return go_on;
+    return build(options, renderer, built);
 }
 
 // What makes other formats of a PPM, by the ends of their names.
@@ -160,6 +174,37 @@ int compile(const Options& options, const char* out)
     return source.finish() && output.commit() ? 0 : output.report();
 }
 
+int explain(const Options& options)
+{
+    Built built{};
+    const Number numbers[] = {options.number, options.beside};
+    const uint32_t count = options.beside == options.number ? 1 : 2;
+    static Explanation explanations[2];
+    for (uint32_t i = 0; i < count; i++) {
+        const Renderer& renderer = *renderers[static_cast<int>(numbers[i])];
+        const int built_it = i == 0 ? load(options, renderer, "-", built) : build(options, renderer, built, true);
+        if (built_it != go_on)
+            return built_it;
+        if (options.x >= built.width || options.y >= built.height)
+            return bad_options("pixel %u,%u is outside of the picture; expected 0,0 to %u,%u", options.x, options.y,
+                               built.width - 1, built.height - 1);
+        explain_pixel(numbers[i], description, options.x, options.y, explanations[i]);
+        if (!explanations[i].whole) {
+            fputs("qray: not enough memory for all rays of the pixel; a smaller depth ('-d') or fewer samples take less\n", stderr);
+            return 1;
+        }
+    }
+    const Explained first{number_names[static_cast<int>(numbers[0])], explanations[0]},
+        beside{number_names[static_cast<int>(numbers[1])], explanations[1]};
+    scene::Source source([](void*, const char* text, size_t size) { return fwrite(text, 1, size, stdout) == size; }, nullptr);
+    source.print("pixel %u,%u of %ux%u in %s%s%s, depth %u, cutoff %g\n", options.x, options.y, built.width, built.height,
+                 first.number, count == 2 ? " beside " : "", count == 2 ? beside.number : "", options.settings.depth,
+                 options.settings.cutoff);
+    write_explanation(source, description, options.settings, first, count == 2 ? &beside : nullptr);
+    source.finish(); // main() says what could not be written
+    return 0;
+}
+
 // So that no file that is opened later takes the place of one of the three, and is written to in its name.
 void keep_standard_files()
 {
@@ -172,11 +217,14 @@ int run(int argc, char** argv)
 {
     if (argc == 2 && strcmp(argv[1], "--describe") == 0)
         return describe();
-    const bool compiles = argc > 1 && strcmp(argv[1], "compile") == 0;
-    const Command command = compiles ? Command::compile : Command::draw;
+    const bool compiles = argc > 1 && strcmp(argv[1], "compile") == 0, explains = argc > 1 && strcmp(argv[1], "explain") == 0;
+    const Command command = compiles ? Command::compile : explains ? Command::explain : Command::draw;
+    const int word = compiles || explains;
     Options options;
-    if (const int status = read_options(command, argc - compiles, argv + compiles, options); status != go_on)
+    if (const int status = read_options(command, argc - word, argv + word, options); status != go_on)
         return status;
+    if (explains)
+        return explain(options);
     const char* const out = output_name(options, compiles ? ".hpp" : ".ppm");
     return out == nullptr ? 2 : compiles ? compile(options, out) : draw(options, out);
 }

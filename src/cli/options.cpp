@@ -35,14 +35,24 @@ bool share(std::string_view text, double& value)
     return scene::read_number(text, value) == scene::NumberError::none && value >= 0 && value <= 1;
 }
 
-bool take_number(Options& o, const char* value)
+bool read_number(std::string_view text, Number& number)
 {
     for (size_t i = 0; i < std::size(number_names); i++)
-        if (strcmp(value, number_names[i]) == 0) {
-            o.number = static_cast<Number>(i);
+        if (text == number_names[i]) {
+            number = static_cast<Number>(i);
             return true;
         }
     return false;
+}
+
+bool take_number(Options& o, const char* value) { return read_number(value, o.number); }
+
+bool take_numbers(Options& o, const char* value)
+{
+    const std::string_view text = value;
+    const size_t comma = text.find(',');
+    return read_number(text.substr(0, comma), o.number)
+        && read_number(comma == text.npos ? text : text.substr(comma + 1), o.beside);
 }
 
 bool take_size(Options& o, const char* value)
@@ -101,7 +111,8 @@ bool take_within(Options& o, const char* value)
 
 constexpr unsigned draw = static_cast<unsigned>(Command::draw);
 constexpr unsigned compile = static_cast<unsigned>(Command::compile);
-constexpr unsigned all = draw | compile;
+constexpr unsigned explain = static_cast<unsigned>(Command::explain);
+constexpr unsigned all = draw | compile | explain;
 
 constexpr Option table[] = {
     {"-o", "FILE", draw, "the picture; '-' is standard output (default: SCENE.ppm in this folder)", "a name",
@@ -111,8 +122,10 @@ constexpr Option table[] = {
     {"--name", "NAME", compile, "the header's namespace (default: scene)",
      "a C++ name of at most 64 letters, digits and _", take_name},
     {"-s", "WxH", all, "size in pixels (default: the scene's own)", "WIDTHxHEIGHT, each from 1 to 32768", take_size},
-    {"-n", "NUMBER", all, "number system: q16, q32, float or double (default: q32)",
+    {"-n", "NUMBER", draw | compile, "number system: q16, q32, float or double (default: q32)",
      "q16, q32, float or double", take_number},
+    {"-n", "NUMBER", explain, "number system: q16, q32, float or double (default: q32); two, as q16,double, are compared",
+     "q16, q32, float or double, or two of them with a comma between", take_numbers},
     {"-r", "N", all, "samples a pixel: 1, 4, 9, 16 and so on (default: 1)", "a square number from 1 to 4096",
      take_samples},
     {"-a", "LEVELS[,T]", all, "adaptive sampling: 1 to 6 levels, threshold 0 to 1 (default: 0.0625)",
@@ -146,23 +159,40 @@ bool has(const Option& option, Command command)
 
 void print_help(Command command)
 {
-    const bool draws = command == Command::draw;
+    const bool draws = command == Command::draw, compiles = command == Command::compile;
     puts(draws ? "usage: qray [options] SCENE\n"
                  "Draws a scene ('-': standard input) as a binary PPM picture.\n"
-               : "usage: qray compile [options] SCENE\n"
-                 "Turns a scene ('-': standard input) into a C++ header, to be drawn without an operating system.\n");
+         : compiles
+               ? "usage: qray compile [options] SCENE\n"
+                 "Turns a scene ('-': standard input) into a C++ header, to be drawn without an operating system.\n"
+               : "usage: qray explain [options] SCENE X,Y\n"
+                 "Says why pixel X,Y (from the left, from the top, from 0) of a scene ('-': standard input) has its colour:\n"
+                 "the tree of rays, what each meets, and what each light adds or what blocks it.\n");
     for (const Option& o : table)
         if (has(o, command))
             printf("  %-9s %-11s %s\n", o.name, o.value != nullptr ? o.value : "", o.help);
     puts("  -h, --help            this\n"
          "  --version\n");
     puts(draws ? "example: qray scenes/showcase.nff -s 640x480 -r 4 -o picture.ppm\n"
-                 "also: qray compile -h; qray --describe, what there is as JSON\n"
+                 "also: qray compile -h; qray explain -h, why a pixel has its colour; qray --describe, what there is as JSON\n"
                  "exit status: 0; 1: bad scene, or the picture cannot be written; 2: bad options"
-               : "example: qray compile scenes/showcase.nff -s 64x48 -n q32 -o showcase.hpp");
+         : compiles ? "example: qray compile scenes/showcase.nff -s 64x48 -n q32 -o showcase.hpp"
+                    : "example: qray explain scenes/showcase.nff -s 64x48 -n q16,double 20,30");
 }
 
-const char* command_name(Command command) { return command == Command::draw ? "qray" : "qray compile"; }
+const char* command_name(Command command)
+{
+    return command == Command::draw ? "qray" : command == Command::compile ? "qray compile" : "qray explain";
+}
+
+// "12,34", of the pixel to explain.
+bool take_pixel(Options& o, std::string_view value)
+{
+    const size_t comma = value.find(',');
+    o.has_pixel = comma != value.npos && whole(value.substr(0, comma), 0, scene::Limits::resolution, o.x)
+        && whole(value.substr(comma + 1), 0, scene::Limits::resolution, o.y);
+    return o.has_pixel;
+}
 
 // "-s 64x48", "-s64x48", "--cutoff 0.1", "--cutoff=0.1"; `value` is null where none is in the argument itself.
 const Option* find(Command command, const char* argument, const char*& value)
@@ -203,6 +233,11 @@ int read_options(Command command, int argc, char** argv, Options& options)
     for (int i = 1; i < argc; i++) {
         const char* argument = argv[i];
         if (only_scenes || argument[0] != '-' || argument[1] == 0) {
+            if (command == Command::explain && options.scene != nullptr && !options.has_pixel) {
+                if (!take_pixel(options, argument))
+                    return bad_options("'%s' is no pixel; expected X,Y, from 0", scene::ShownName(argument).text);
+                continue;
+            }
             if (options.scene != nullptr)
                 return bad_options("one scene at a time; '%s' is a second", scene::ShownName(argument).text);
             options.scene = argument;
@@ -238,6 +273,8 @@ int read_options(Command command, int argc, char** argv, Options& options)
         return bad_options("'-a' and '-r' exclude each other: adaptive sampling chooses the samples of a pixel");
     if (options.scene == nullptr || *options.scene == 0)
         return bad_options("no scene; '%s -h' shows how to give one", command_name(command));
+    if (command == Command::explain && !options.has_pixel)
+        return bad_options("no pixel; expected X,Y behind the scene");
     return go_on;
 }
 

@@ -1,4 +1,4 @@
-// The command line of qray and qray compile: one table of options for both.
+// The command line of qray, qray compile and qray explain: one table of options for all.
 #pragma once
 
 #include "../scene/settings.hpp"
@@ -9,7 +9,7 @@ namespace qray::cli {
 enum class Number : uint8_t { q16, q32, single_float, double_float };
 constexpr const char* number_names[] = {"q16", "q32", "float", "double"};
 
-enum class Command : uint8_t { draw = 1, compile = 2 };
+enum class Command : uint8_t { draw = 1, compile = 2, explain = 4 };
 
 struct Options {
     const char* scene = nullptr;  // "-": standard input
@@ -20,6 +20,9 @@ struct Options {
     uint32_t threads = 0;     // 0: one for each processor
     bool stats = false, quiet = false;
     const char* name = "scene"; // qray compile: the namespace
+    bool has_pixel = false;     // qray explain: of which pixel,
+    uint32_t x = 0, y = 0;
+    Number beside = Number::q32; // and beside which other number system, if not `number`
 };
 
 constexpr uint32_t max_threads = 256;

@@ -39,6 +39,8 @@ public:
         fit();
         if (!fine_enough(error) || !frame_of_part(error))
             return false;
+        s.origin = frame.origin;
+        s.scale = frame.scale;
         resolution.pairs(s.sorted.data);
         shapes();
         if (!lights(error))
@@ -302,6 +304,7 @@ private:
             while (ldexp(fmax(largest(sum), largest(d.background)), -s.exposure) > range)
                 s.exposure++;
         s.background = colour(d.background);
+        s.far_lights = 0;
         uint32_t panels = 0;
         for (uint32_t i = 0; i < d.light_count; i++) {
             const LightSource& l = d.lights[i];
@@ -316,6 +319,7 @@ private:
             auto [at, shift] = far_point(frame.point(l.at));
             // So far away that it is a sun; in float, its square would be infinite.
             if (shift > 30 || (is_float && largest(at) > 0x1p60)) {
+                s.far_lights |= uint64_t{1} << i;
                 s.suns.push() = {Convert<N>::direction(unit(at)), colour(l.colour)};
                 continue;
             }
@@ -357,6 +361,7 @@ private:
                          2 * scene::length(l.u), 2 * scene::length(l.v));
                 return false;
             }
+            s.far_lights |= uint64_t{1} << (&l - d.lights);
             s.suns.push() = {Convert<N>::direction(unit(at)), colour(l.colour)};
             return true;
         }

@@ -72,6 +72,7 @@ struct LightSource {
     Vec3d at;     // position, of a panel its middle; or for a sun the direction it shines from (not normalised)
     Vec3d u, v;   // half edges of a panel
     Vec3d colour; // resolved: 1/sqrt(n) where the text gave none
+    uint32_t line = 0; // of the text
 };
 
 struct ImageSource {

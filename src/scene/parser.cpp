@@ -289,6 +289,7 @@ private:
             return fail(entity.at, "too many lights; expected at most %u (limit 'lights')", Limits::lights);
         LightSource& l = out.lights[out.light_count];
         l = {};
+        l.line = entity.at.line;
         if (!read(l))
             return false;
         const bool has_colour = lexer.next().kind == TokenKind::number;

@@ -67,6 +67,8 @@ constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, Count&
 {
     Rgb<N> c{}; // set apart: with its initialisation the M3 spills more registers
     c = trace(scene, eye_ray(scene, at), count, place...);
+    if constexpr (Explains<Count>)
+        count.comes_back(c);
     return {Sample<N>::clamped(c.x, scene.exposure), Sample<N>::clamped(c.y, scene.exposure),
             Sample<N>::clamped(c.z, scene.exposure)};
 }
@@ -85,6 +87,8 @@ QRAY_INLINE constexpr Sample<N> sample_at(const Scene<N, E>& scene, const Pencil
                                           [[maybe_unused]] int32_t y, [[maybe_unused]] int half, Count& count)
 {
     const Camera<N>& c = scene.camera;
+    if constexpr (Explains<Count>)
+        count.sample(c, x, y);
     if constexpr (E.panel)
         return sample(scene, row + c.right * x, count, eye_sample(c, x, y, half));
     else

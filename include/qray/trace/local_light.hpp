@@ -15,6 +15,9 @@ enum class RayKind : uint8_t { camera, shadow, mirrored, refracted };
 struct NoCount {
     constexpr void operator()(RayKind) const {}
 };
+// Is it told everything: what each ray meets, and all that is added or left out? src/cli/observe.cpp lists what it is told.
+template <class Count>
+concept Explains = Count::explains;
 
 // Light at a surface seen along d: what the matte part gathers (to be multiplied by its colour) and the highlights.
 template <class N, Effects E>
@@ -85,6 +88,8 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
 {
     const Surface<N>& s = seen.surface;
     const auto n_l = N::unit(dot<N>(s.normal, l));
+    if constexpr (Explains<Count>)
+        count.turned_to_light(n_l, distance);
     if (!(n_l > N::zero))
         return;
     auto diffuse = N::unit(scene.mattes[seen.material].diffuse * n_l);
@@ -105,6 +110,8 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
         if (scene.shadows.value) {
             count(RayKind::shadow);
             const Ray<N> to_light = leaving<N, E>(s, seen.kind, seen.tag, l, true);
+            if constexpr (Explains<Count>)
+                count.crossed(scene, to_light, distance, light...);
             if constexpr (E.see_through) {
                 const auto through = light_through(scene, to_light, distance, light...);
                 if (through == N::zero)
@@ -125,6 +132,8 @@ QRAY_INLINE constexpr void gather(const Scene<N, E>& scene, const Seen<N>& seen,
     if constexpr (waits)
         if (waiting && !(E.see_through && scene.shadows.value))
             highlight = highlight_along(scene, seen, l, n_l);
+    if constexpr (Explains<Count>)
+        count.adds_light(diffuse, highlight, colour);
     if constexpr (requires { sum.add(diffuse, highlight); }) { // for others a function moved registers
         sum.add(diffuse, highlight);
     } else {
@@ -168,9 +177,13 @@ QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N>
     if constexpr (E.light_map)
         if (scene.lights_of.count != 0)
             sum.matte = sum.matte + light_of_surfaces(scene, seen.tag, seen.surface.turned, seen.surface.point);
+    if constexpr (Explains<Count>)
+        count.shades(sum.matte, colour_at(scene, seen.material, seen.surface.point));
 #define QRAY_GATHER(Type, name, table) \
     if constexpr (E.name) \
         for (uint32_t i = 0; i < scene.table.count; i++) { \
+            if constexpr (Explains<Count>) \
+                count.asks_light(scene.table[i], i); \
             Direction<N> l{}; \
             typename N::Length distance{}; \
             if constexpr (requires { gather(scene, seen, scene.table[i], sum, count, sample...); }) { \
@@ -195,6 +208,8 @@ QRAY_INLINE constexpr Rgb<N> local_light(const Scene<N, E>& scene, const Seen<N>
     }
     if constexpr (E.highlight)
         light = light + sum.highlight.value;
+    if constexpr (Explains<Count>)
+        count.shaded(light);
     return light;
 }
 

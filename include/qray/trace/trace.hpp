@@ -66,6 +66,8 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, EyeRay ray, Count& count, Sampl
     [[maybe_unused]] auto weight = N::one;
     [[maybe_unused]] uint32_t depth = 1;
     count(RayKind::camera);
+    if constexpr (Explains<Count>)
+        count.starts(RayKind::camera, ray, weight, depth);
     for (;;) {
         Hit<N> hit;
         if (!nearest(scene, ray, hit)) {
@@ -73,6 +75,8 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, EyeRay ray, Count& count, Sampl
         } else {
             const Surface<N> s = surface_at(scene, ray, hit);
             const uint32_t material = hit.tag.material();
+            if constexpr (Explains<Count>)
+                count.hits(hit, s);
             const Seen<N> seen{s, hit.kind, hit.tag, material, ray.direction};
             accumulate<N, E>(sum, local_light(scene, seen, count, sample...), weight);
             if constexpr (E.spawns()) {
@@ -92,6 +96,8 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, EyeRay ray, Count& count, Sampl
                             if constexpr (NarrowFixed<N> && E.corners())
                                 if (!goes_through && !entering && (ray.outward || ray.from == Tag{Tag::none})
                                     && touches_edge(scene, ray, parts_of(s.geometric), hit.tag, hit.t)) {
+                                    if constexpr (Explains<Count>)
+                                        count.touches_edge();
                                     bent = ray.direction;
                                     goes_through = true;
                                 }
@@ -103,8 +109,12 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, EyeRay ray, Count& count, Sampl
                                     stack.value.entries[stack.value.count++] = {
                                         going_on<N, E>(s, hit.kind, hit.tag, bent, false, cosine), w,
                                         static_cast<uint8_t>(depth + 1)};
+                                } else if constexpr (Explains<Count>) {
+                                    count.cut_off(RayKind::refracted, glass.amount, w);
                                 }
                             } else {
+                                if constexpr (Explains<Count>)
+                                    count.reflects_totally();
                                 reflect = reflect > N::one - glass.amount ? N::one : reflect + glass.amount;
                             }
                         }
@@ -116,8 +126,14 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, EyeRay ray, Count& count, Sampl
                                              mirrored<N>(ray.direction, s.normal, s.n_d), true, -s.n_d);
                         weight = w;
                         depth++;
+                        if constexpr (Explains<Count>)
+                            count.starts(RayKind::mirrored, ray, weight, depth);
                         continue;
                     }
+                    if constexpr (Explains<Count>)
+                        count.cut_off(RayKind::mirrored, reflect, w);
+                } else if constexpr (Explains<Count>) {
+                    count.is_deepest(material);
                 }
             }
         }
@@ -128,6 +144,8 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, EyeRay ray, Count& count, Sampl
             ray = next.ray;
             weight = next.weight;
             depth = next.depth;
+            if constexpr (Explains<Count>)
+                count.starts(RayKind::refracted, ray, weight, depth);
         } else {
             return sum;
         }
