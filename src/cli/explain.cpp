@@ -112,7 +112,8 @@ private:
     void pixel(const Explained& e)
     {
         const Pixel p = e.of.pixel, q = beside != nullptr ? beside->of.pixel : p, r = first.of.pixel;
-        out.print("%spixel in %s: %u %u %u\n", q.r != r.r || q.g != r.g || q.b != r.b ? "! " : "", e.number, p.r, p.g, p.b);
+        const bool differs = q.r != r.r || q.g != r.g || q.b != r.b;
+        out.print("%spixel in %s: %u %u %u\n", differs ? "! " : "", e.number, p.r, p.g, p.b);
     }
 
     // A line, indented; or two where the number systems differ. text(line, explanation) makes it.
@@ -221,9 +222,7 @@ private:
         };
         Line head;
         head.add("%s%s ray, depth %u, weight %.5g", mark, kinds[static_cast<int>(r.kind)], r.depth, r.weight);
-        depth--;
-        if (depth != 0)
-            depth++;
+        depth -= depth == 1; // the eye's stands at the edge
         put(head.text, "+- ");
         depth = r.depth;
         each(off(r.direction, q.direction, direction_off) || fabs(r.weight - q.weight) > light_off,
@@ -259,26 +258,31 @@ private:
             l.vector(of_it.normal);
             l.add(", n.d %.5g%s", of_it.cosine, of_it.turned ? "; turned to the ray, which meets it from behind" : "");
         });
-        each(off(r.colour, q.colour, light_off), [&](Line& l, const TracedRay& of_it, const Explanation&) { colour(l, of_it); });
+        each(off(r.colour, q.colour, light_off),
+             [&](Line& l, const TracedRay& of_it, const Explanation&) { colour(l, of_it); });
         each(off(times(r.arrives, r.colour), times(q.arrives, q.colour), light_off / std::max(r.weight, 1e-9)),
              [&](Line& l, const TracedRay& of_it, const Explanation&) { arrives(l, of_it); });
         for (uint32_t k = 0; k < r.light_count; k++) {
-            const LightShare &one = a.lights[r.first_light + k], &two = b.lights[q.first_light + std::min(k, q.light_count - 1)];
+            const LightShare &one = a.lights[r.first_light + k], &two = b.lights[q.first_light + k]; // each asks all
             const bool differs = one.verdict != two.verdict || one.lit != two.lit || one.blocked != two.blocked
                 || one.crossed != two.crossed || (one.crossed != 0 && one.first_crossed != two.first_crossed)
                 || off((times(one.matte, r.colour) + one.highlight) * r.weight,
                        (times(two.matte, q.colour) + two.highlight) * q.weight, light_off);
             each(differs, [&](Line& l, const TracedRay& of_it, const Explanation& e) {
-                light(l, of_it, e.lights[of_it.first_light + std::min(k, of_it.light_count - 1)]);
+                light(l, of_it, e.lights[of_it.first_light + k]);
             });
         }
         each(off(r.light * r.weight, q.light * q.weight, light_off),
              [&](Line& l, const TracedRay& of_it, const Explanation&) { sum(l, of_it); });
-        if (r.totally_reflected || q.totally_reflected || r.touched_edge || q.touched_edge || r.deepest
-            || r.cut_mirrored >= 0 || q.cut_mirrored >= 0 || r.cut_refracted >= 0 || q.cut_refracted >= 0)
-            each(r.totally_reflected != q.totally_reflected || r.touched_edge != q.touched_edge
-                     || (r.cut_mirrored >= 0) != (q.cut_mirrored >= 0) || (r.cut_refracted >= 0) != (q.cut_refracted >= 0),
-                 [&](Line& l, const TracedRay& of_it, const Explanation&) { children(l, of_it); });
+        const uint32_t ends = endings(r), other_ends = endings(q);
+        if (ends != 0 || other_ends != 0)
+            each(ends != other_ends, [&](Line& l, const TracedRay& of_it, const Explanation&) { children(l, of_it); });
+    }
+    // What there is to be said of the rays that a hit does not send on as its material has it.
+    static uint32_t endings(const TracedRay& r)
+    {
+        return r.totally_reflected + 2u * r.touched_edge + 4u * r.deepest + 8u * (r.cut_mirrored >= 0)
+            + 16u * (r.cut_refracted >= 0);
     }
     // All of a hit that has no partner.
     void hit(const Explanation& e, const TracedRay& r)
@@ -294,7 +298,7 @@ private:
                 own([&](Line& l, const Explanation&) { light(l, r, e.lights[r.first_light + k]); });
         }
         own([&](Line& l, const Explanation&) { sum(l, r); });
-        if (r.totally_reflected || r.touched_edge || r.deepest || r.cut_mirrored >= 0 || r.cut_refracted >= 0)
+        if (endings(r) != 0)
             own([&](Line& l, const Explanation&) { children(l, r); });
     }
 
@@ -398,8 +402,8 @@ private:
         };
         cut("mirrored", r.cut_mirrored);
         cut("refracted", r.cut_refracted);
-        if (l.used == 0 || between[0] == 0)
-            l.add("goes on");
+        if (endings(r) == 0)
+            l.add("sends on all rays of its material");
     }
 
     // Of the surface at that place in the text.

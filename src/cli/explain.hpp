@@ -37,7 +37,7 @@ struct Explanation {
         uint32_t place, material;
         double t, cosine;            // cosine: normal . direction
         scene::Vec3d point, normal;  // the shading normal, turned to the viewer
-        scene::Vec3d arrives, colour; // ambient (or of other surfaces) and emission; the colour that they are multiplied by
+        scene::Vec3d arrives, colour; // ambient (or of other surfaces) and emission; what they are multiplied by
         scene::Vec3d light;          // of this surface, or the background: before weight
         double cut_mirrored, cut_refracted; // weights of rays that were not traced, or less than 0
         uint32_t first_light, light_count;
@@ -73,8 +73,8 @@ struct Explanation {
 // Explains pixel (x, y) of the scene that this number system's renderer built last from the description.
 void explain_pixel(Number number, const scene::Description& from, uint32_t x, uint32_t y, Explanation& into);
 
-// As text of at most 120 columns. Where there is another number system's beside it, what differs by more than is said in
-// the first lines is marked by '!'.
+// As text of at most 120 columns. Where there is another number system's beside it, what differs by more than is said
+// in the first lines is marked by '!'.
 struct Explained {
     const char* number;
     const Explanation& of;

@@ -68,7 +68,8 @@ int build(const Options& options, const Renderer& renderer, Built& built, bool a
     if (options.quiet)
         return go_on;
     if (!again)
-        for (const scene::Warning* w : {&description.passed_over, &description.clamped, &description.empty, &description.nonplanar})
+        for (const scene::Warning* w :
+             {&description.passed_over, &description.clamped, &description.empty, &description.nonplanar})
             warn(options.scene, *w);
     warn(options.scene, built.lost);
     return go_on;
@@ -190,16 +191,18 @@ int explain(const Options& options)
                                built.width - 1, built.height - 1);
         explain_pixel(numbers[i], description, options.x, options.y, explanations[i]);
         if (!explanations[i].whole) {
-            fputs("qray: not enough memory for all rays of the pixel; a smaller depth ('-d') or fewer samples take less\n", stderr);
+            fputs("qray: not enough memory for all rays of the pixel; less depth or fewer samples take less\n", stderr);
             return 1;
         }
     }
     const Explained first{number_names[static_cast<int>(numbers[0])], explanations[0]},
         beside{number_names[static_cast<int>(numbers[1])], explanations[1]};
-    scene::Source source([](void*, const char* text, size_t size) { return fwrite(text, 1, size, stdout) == size; }, nullptr);
-    source.print("pixel %u,%u of %ux%u in %s%s%s, depth %u, cutoff %g\n", options.x, options.y, built.width, built.height,
-                 first.number, count == 2 ? " beside " : "", count == 2 ? beside.number : "", options.settings.depth,
-                 options.settings.cutoff);
+    scene::Source source(
+        [](void* to, const char* text, size_t size) { return fwrite(text, 1, size, static_cast<FILE*>(to)) == size; },
+        stdout);
+    source.print("pixel %u,%u of %ux%u in %s%s%s, depth %u, cutoff %g\n", options.x, options.y, built.width,
+                 built.height, first.number, count == 2 ? " beside " : "", count == 2 ? beside.number : "",
+                 options.settings.depth, options.settings.cutoff);
     write_explanation(source, description, options.settings, first, count == 2 ? &beside : nullptr);
     source.finish(); // main() says what could not be written
     return 0;
@@ -217,11 +220,12 @@ int run(int argc, char** argv)
 {
     if (argc == 2 && strcmp(argv[1], "--describe") == 0)
         return describe();
-    const bool compiles = argc > 1 && strcmp(argv[1], "compile") == 0, explains = argc > 1 && strcmp(argv[1], "explain") == 0;
+    const char* const word = argc > 1 ? argv[1] : "";
+    const bool compiles = strcmp(word, "compile") == 0, explains = strcmp(word, "explain") == 0;
     const Command command = compiles ? Command::compile : explains ? Command::explain : Command::draw;
-    const int word = compiles || explains;
+    const int skipped = compiles || explains;
     Options options;
-    if (const int status = read_options(command, argc - word, argv + word, options); status != go_on)
+    if (const int status = read_options(command, argc - skipped, argv + skipped, options); status != go_on)
         return status;
     if (explains)
         return explain(options);

@@ -1,4 +1,4 @@
-// The tracer that is explained: that for everything, with an observer that keeps what it is told.
+// The tracer that is explained, the one for everything, with an observer that keeps what it is told.
 #include "explain.hpp"
 #include "renderer.hpp"
 

@@ -124,7 +124,7 @@ constexpr Option table[] = {
     {"-s", "WxH", all, "size in pixels (default: the scene's own)", "WIDTHxHEIGHT, each from 1 to 32768", take_size},
     {"-n", "NUMBER", draw | compile, "number system: q16, q32, float or double (default: q32)",
      "q16, q32, float or double", take_number},
-    {"-n", "NUMBER", explain, "number system: q16, q32, float or double (default: q32); two, as q16,double, are compared",
+    {"-n", "NUMBER", explain, "q16, q32, float or double (default: q32), or two to be compared, as q16,double",
      "q16, q32, float or double, or two of them with a comma between", take_numbers},
     {"-r", "N", all, "samples a pixel: 1, 4, 9, 16 and so on (default: 1)", "a square number from 1 to 4096",
      take_samples},
@@ -166,15 +166,15 @@ void print_help(Command command)
                ? "usage: qray compile [options] SCENE\n"
                  "Turns a scene ('-': standard input) into a C++ header, to be drawn without an operating system.\n"
                : "usage: qray explain [options] SCENE X,Y\n"
-                 "Says why pixel X,Y (from the left, from the top, from 0) of a scene ('-': standard input) has its colour:\n"
-                 "the tree of rays, what each meets, and what each light adds or what blocks it.\n");
+                 "Says why a pixel of a scene ('-': standard input), X from the left and Y from the top, has its\n"
+                 "colour: the tree of rays, what each meets, what each light adds or what blocks it.\n");
     for (const Option& o : table)
         if (has(o, command))
             printf("  %-9s %-11s %s\n", o.name, o.value != nullptr ? o.value : "", o.help);
     puts("  -h, --help            this\n"
          "  --version\n");
     puts(draws ? "example: qray scenes/showcase.nff -s 640x480 -r 4 -o picture.ppm\n"
-                 "also: qray compile -h; qray explain -h, why a pixel has its colour; qray --describe, what there is as JSON\n"
+                 "also: qray compile -h; qray explain -h, why a pixel is so; qray --describe, what there is as JSON\n"
                  "exit status: 0; 1: bad scene, or the picture cannot be written; 2: bad options"
          : compiles ? "example: qray compile scenes/showcase.nff -s 64x48 -n q32 -o showcase.hpp"
                     : "example: qray explain scenes/showcase.nff -s 64x48 -n q16,double 20,30");
