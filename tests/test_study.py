@@ -13,6 +13,7 @@ import xml.etree.ElementTree
 sys.dont_write_bytecode = True
 sys.path.insert(0, "src/study")
 import cycles  # noqa: E402
+import bits  # noqa: E402
 import figures  # noqa: E402
 import ladder  # noqa: E402
 import report  # noqa: E402
@@ -58,6 +59,16 @@ class Parts(unittest.TestCase):
             changed = len(after) - len(before)
             self.assertIn(changed, (len(words), 0), name)
             self.assertTrue(before != after or options, name)
+
+    def test_bits_that_are_needed_and_what_they_predict(self):
+        b = bits.Bits.__new__(bits.Bits)
+        b.bits = [4, 6, 8]
+        self.assertEqual([b.needed(row, 60) for row in ([50, 61, 70], [61, 50, 70], [70, 61, 60], [1, 2, 3])], [6, 8, 4, None])
+        # Squares that make 0 dB each, of a shade or of an edge: three edges of 2, 3 and 6 are as far as one of 7.
+        one = 255 ** 2
+        b.found = {"s": {"levels": 1, "numbers": {"n": {"reached": [one, 0], "together": [0, one * 10],
+                                                       "alone": [[one, one * 2], [one * 2, one * 3], [0, one * 6]]}}}}
+        self.assertEqual([round(v, 6) for v in b.predicted("s", "n")], [0, -10, -10])
 
     def test_report_finds_stale_tables(self):
         reports = {"one": (None, lambda: ["a", "b"])}
@@ -145,7 +156,7 @@ class Quick(unittest.TestCase):
                     self.assertEqual(found, [99, 0, 0])
 
     def test_plots_are_xml(self):
-        for name in ["m0", "m3", "m4f", "rv32", "bits", "samples", "panel"]:
+        for name in ["m0", "m3", "m4f", "rv32", "bits", "samples", "panel", "steps"]:
             path = f"build/study/quick/{name}.svg"
             xml.etree.ElementTree.parse(path)
             self.assertLess(os.path.getsize(path), 300_000)

@@ -26,10 +26,6 @@ COSTS = ["microbit", "mps2_an385"]
 PROGRAM, FOLDER = "build/study/bits", "build/study/bits-of"
 
 
-def quick():
-    return bool(os.environ.get("QUICK"))
-
-
 def measured(scenes, size):
     """{scene: what bits.cpp says}; two at a time, kept."""
     sources = runs.tree_hash("include", "src/scene", "src/cli", "src/study/bits.cpp", "src/study/stepped.hpp",
@@ -126,11 +122,7 @@ def costs(numbers):
 
 
 def scenes():
-    return ["scenes/floor.nff", "scenes/glass.nff"] if quick() else sorted(glob.glob("scenes/*.nff"))
-
-
-def measure():
-    return Bits(scenes(), "64x48" if quick() else SIZE)
+    return sorted(glob.glob("scenes/*.nff"))
 
 
 def steps_table(b, cost):
@@ -191,7 +183,7 @@ def sentences(b, cost):
     dear = sorted(more, key=more.get, reverse=True)[:4]
     out.append(f"The bits of `{wide}` cost {total(COSTS[0], wide) / total(COSTS[0], narrow):.1f} times the instructions of `{narrow}` on the "
                f"{BOARDS[COSTS[0]]}, which multiplies to 32 bits alone, but {total(COSTS[1], wide) / total(COSTS[1], narrow):.1f} times on the "
-               f"{BOARDS[COSTS[1]]} (each step once); dearest on the {BOARDS[COSTS[0]]} are "
+               f"{BOARDS[COSTS[1]]} (a call of each step); dearest on the {BOARDS[COSTS[0]]} are "
                + listed([f"{what[n]} (+{more[n]:.0f} instructions)" for n in dear]) + ".")
     shares = b.shares(narrow)
     large = sorted(shares, key=shares.get, reverse=True)[:3]
@@ -212,15 +204,15 @@ def write_csv(b, path):
                 out.writerows([scene, b.size, name, bits, f"{value:.3f}"] for bits, value in zip(b.bits, row))
 
 
-def study(folder):
+def study(folder, quick):
     """For make study: the table as CSV, and the plot."""
-    b = measure()
+    b = Bits(["scenes/floor.nff", "scenes/glass.nff"], "64x48") if quick else Bits(scenes(), SIZE)
     write_csv(b, f"{folder}/steps.csv")
-    figures.steps(b, {} if quick() else costs(b.numbers), f"{folder}/steps.svg")
+    figures.steps(b, {} if quick else costs(b.numbers), f"{folder}/steps.svg")
 
 
 def report():
-    b = measure()
+    b = Bits(scenes(), SIZE)
     cost = costs(b.numbers)
     figures.steps(b, cost, f"{FIGURES}/steps.svg")
     return (f"![Accuracy by step and bits]({FIGURES}/steps.svg)\n\n{sentences(b, cost)}\n\n"
@@ -233,8 +225,9 @@ def report():
             + steps_table(b, cost)
             + "\nWhat a number system reaches, and what its widths say: all steps rounded to its bits at once (together), and the errors of "
             "each alone, added (sum): squares of bytes off by up to 2 levels, and of others, which lie where edges have moved, the root "
-            "of the sum of the squares of these, as ways that know nothing of each other add up.\n\n" + numbers_table(b))
+            "of the sum of the squares of these, as ways that know nothing of each other add up. What light maps round (`cornell`) is no "
+            "step.\n\n" + numbers_table(b))
 
 
 REPORTS = {"bits": (report, lambda: ["figures/steps.svg", "| all together |"] + [f"{n} reaches" for n in ("q16", "q32")]
-                    + [f"| `{scene}` |" for scene in sorted(glob.glob("scenes/*.nff"))])}
+                    + [f"| `{scene}` |" for scene in scenes()])}

@@ -1,6 +1,7 @@
 // The number system of the study: double, but each step of the tracer rounds what it finds to a number of bits of its own.
 // It is no model beside the tracer. Where a step has an operation or a function of its own, that is given here for this
 // system, and the tracer's own text calls it; where several steps share an operation, the file that calls tells which it is.
+// Nothing of this is libm's, so that all numbers are the same on every machine.
 #pragma once
 
 #include <qray/picture/render.hpp>
@@ -67,9 +68,9 @@ struct Widths {
 template <class N>
 constexpr Widths widths_of(int exposure)
 {
-    // In 32 bits, reciprocals and the rows of textures have 15; texture coordinates have more bits than these say.
-    constexpr int Significant = NarrowFixed<N> ? 15 : 30, Cell = exact;
-    constexpr int Length = N::Length::frac, Unit = N::Unit::frac;
+    // Where products have 32 bits, reciprocals and the rows of textures have those of a Unit and one more; texture
+    // coordinates have more bits than their rows say.
+    constexpr int Length = N::Length::frac, Unit = N::Unit::frac, Significant = Unit + NarrowFixed<N>, Cell = exact;
     const int Colour = N::Colour::frac - exposure;
     Widths w;
 #define QRAY_WIDTH(name, quantity, what) w[Step::name] = quantity;
@@ -89,13 +90,16 @@ inline void set(const Widths& w)
         roundings[i] = Rounding(w.bits[i]);
 }
 
+// In a constant expression, which a member's specialisation must allow, nothing is rounded.
 template <Step S>
-QRAY_INLINE double keep(double v)
+QRAY_INLINE constexpr double keep(double v)
 {
+    if (__builtin_is_constant_evaluated())
+        return v;
     return roundings[static_cast<int>(S)](v);
 }
 template <Step S>
-QRAY_INLINE Vec<double> keep(const Vec<double>& v)
+QRAY_INLINE constexpr Vec<double> keep(const Vec<double>& v)
 {
     return {keep<S>(v.x), keep<S>(v.y), keep<S>(v.z)};
 }
@@ -103,23 +107,23 @@ QRAY_INLINE Vec<double> keep(const Vec<double>& v)
 // All that one step finds on its way is rounded like its result.
 template <Step S>
 struct Within : Double {
-    QRAY_INLINE static double unit(double v) { return keep<S>(v); }
-    QRAY_INLINE static double bent(double eta, double x) { return keep<S>(eta * x); }
-    QRAY_INLINE static double sqrt_unit(double a) { return keep<S>(Double::sqrt_unit(a)); }
-    QRAY_INLINE static bool normalise(double x, double y, double z, double& ux, double& uy, double& uz)
+    QRAY_INLINE static constexpr double unit(double v) { return keep<S>(v); }
+    QRAY_INLINE static constexpr double bent(double eta, double x) { return keep<S>(eta * x); }
+    QRAY_INLINE static constexpr double sqrt_unit(double a) { return keep<S>(Double::sqrt_unit(a)); }
+    QRAY_INLINE static constexpr bool normalise(double x, double y, double z, double& ux, double& uy, double& uz)
     {
         const bool is = Double::normalise(x, y, z, ux, uy, uz);
         sharpened(ux, uy, uz);
         return is;
     }
-    QRAY_INLINE static void sharpen(double& x, double& y, double& z)
+    QRAY_INLINE static constexpr void sharpen(double& x, double& y, double& z)
     {
         Double::sharpen(x, y, z);
         sharpened(x, y, z);
     }
 
 private:
-    QRAY_INLINE static void sharpened(double& x, double& y, double& z)
+    QRAY_INLINE static constexpr void sharpened(double& x, double& y, double& z)
     {
         x = keep<S>(x);
         y = keep<S>(y);
@@ -128,8 +132,12 @@ private:
 };
 
 struct Stepped : Double {
-    // Of what the tracer's text in that file asks for. Files are known when it is compiled.
-    QRAY_INLINE static bool is_in(const char* file, const char* room) { return __builtin_strstr(file, room) != nullptr; }
+    // Is it this file of the tracer, or one of this folder, that asks? Known when it is compiled.
+    QRAY_INLINE static bool is_in(const char* file, const char* room)
+    {
+        const char* const at = __builtin_strstr(file, room);
+        return at != nullptr && __builtin_strchr(at + __builtin_strlen(room), '/') == nullptr;
+    }
 
     QRAY_INLINE static double length(double v, const char* file = __builtin_FILE())
     {
@@ -155,8 +163,10 @@ struct Stepped : Double {
 
     QRAY_INLINE static double sqrt(double a) { return keep<Step::root>(Double::sqrt(a)); }
     QRAY_INLINE static double root(double a) { return keep<Step::root>(Double::root(a)); }
-    QRAY_INLINE static double quotient(double v)
+    QRAY_INLINE static constexpr double quotient(double v)
     {
+        if (__builtin_is_constant_evaluated())
+            return v;
         return keep<Step::t>(significant(v, widths[Step::quotient], v));
     }
     QRAY_INLINE static bool quotient(double num, double den, int, double& t)
@@ -208,34 +218,34 @@ struct RejectRay<study::Stepped> {
 
 // Exact in fixed point: see corners.hpp.
 template <>
-inline Sheared<study::Stepped> Shear<study::Stepped>::operator()(const Point<study::Stepped>& v) const
+inline constexpr Sheared<study::Stepped> Shear<study::Stepped>::operator()(const Point<study::Stepped>& v) const
 {
     const Moments m = exact(v);
     return {m.x, m.y};
 }
 
 template <>
-inline bool Pencil<study::Stepped>::unit(Vec<double>& d) const
+inline constexpr bool Pencil<study::Stepped>::unit(Vec<double>& d) const
 {
     return study::Within<study::Step::camera>::normalise(x, y, z, d.x, d.y, d.z);
 }
 template <>
-inline bool normalise_short<study::Stepped, double>(const Vec<double>& v, Vec<double>& u)
+inline constexpr bool normalise_short<study::Stepped, double>(const Vec<double>& v, Vec<double>& u)
 {
     return normalise_short<study::Within<study::Step::normal>>(v, u);
 }
 template <>
-inline Vec<double> mirrored<study::Stepped>(const Vec<double>& d, const Vec<double>& n, double n_d)
+inline constexpr Vec<double> mirrored<study::Stepped>(const Vec<double>& d, const Vec<double>& n, double n_d)
 {
     return mirrored<study::Within<study::Step::mirrored>>(d, n, n_d);
 }
 template <>
-inline bool refracted<study::Stepped>(const Vec<double>& d, const Vec<double>& n, double n_d, double eta, Vec<double>& out)
+inline constexpr bool refracted<study::Stepped>(const Vec<double>& d, const Vec<double>& n, double n_d, double eta, Vec<double>& out)
 {
     return refracted<study::Within<study::Step::refracted>>(d, n, n_d, eta, out);
 }
 template <>
-inline bool intersect_plane<study::Stepped>(double num, double den, double limit, double& t)
+inline constexpr bool intersect_plane<study::Stepped>(double num, double den, double limit, double& t)
 {
     if (!intersect_plane<Double>(num, den, Double::length_max, t))
         return false;
@@ -243,27 +253,29 @@ inline bool intersect_plane<study::Stepped>(double num, double den, double limit
     return t > 0 && t <= limit;
 }
 template <>
-inline Vec<double> on_plane<study::Stepped>(const Vec<double>& c, const Vec<double>& normal, const Vec<double>& q)
+inline constexpr Vec<double> on_plane<study::Stepped>(const Vec<double>& c, const Vec<double>& normal, const Vec<double>& q)
 {
     return study::keep<study::Step::point>(on_plane<Double>(c, normal, q));
 }
 // Colours are often round decimals, whose 255-fold ends on a half. As in fixed point, those that rounding left up to 4 steps
 // below it count as on it, but where that would be seen.
 template <>
-inline uint8_t Sample<study::Stepped>::byte(double v)
+inline constexpr uint8_t Sample<study::Stepped>::byte(double v)
 {
-    const int bits = study::widths[study::Step::colour];
-    return static_cast<uint8_t>((bits < 20 ? v : v + 8 * study::Rounding(bits).half + 0x1p-50) * 255 + 0.5);
+    if (!__builtin_is_constant_evaluated())
+        if (const int bits = study::widths[study::Step::colour]; bits >= 20)
+            v += 8 * study::Rounding(bits).half + 0x1p-50;
+    return static_cast<uint8_t>(v * 255 + 0.5);
 }
 
 template <>
-inline Cell<study::Stepped> LatticeAxis<study::Stepped>::split(double p)
+inline constexpr Cell<study::Stepped> LatticeAxis<study::Stepped>::split(double p)
 {
     const Cell<Double> c = LatticeAxis<Double>::split(study::keep<study::Step::texture>(p));
     return {c.index, c.inside};
 }
 template <>
-inline double LatticeAxis<study::Stepped>::clamped(const Vec<double>& q) const
+inline constexpr double LatticeAxis<study::Stepped>::clamped(const Vec<double>& q) const
 {
     const double p = study::keep<study::Step::texture>(row_dot(q) + offset);
     return p > 0 ? p < 1 ? p : 1 : 0;

@@ -4,11 +4,13 @@
 namespace qray::study {
 
 // The steps: name, of which quantity of a number system its result is, and what it is. Significant: its bits are not those
-// behind the point, but all from the first that is set. Lengths are scene units after the builder's scale.
+// behind the point, but all from the first that is set. Lengths are scene units after the builder's scale. With coordinates
+// go radii, with v.d what cones find in their own frame, with cosines the shares of light that are made of them, with
+// weights the coefficients of materials.
 #define QRAY_STEPS(X) \
     X(camera, Unit, "camera direction") \
-    X(coordinate, Length, "coordinates, radii") \
-    X(projection, Length, "v·d, and cones' own") \
+    X(coordinate, Length, "coordinates") \
+    X(projection, Length, "v·d") \
     X(perpendicular, Length, "perpendicular") \
     X(root, Length, "root") \
     X(quotient, Significant, "quotient") \
@@ -18,12 +20,12 @@ namespace qray::study {
     X(mirrored, Unit, "mirrored direction") \
     X(refracted, Unit, "refracted direction") \
     X(light, Unit, "light's direction") \
-    X(cosine, Unit, "cosines, shares") \
+    X(cosine, Unit, "cosines") \
     X(power, Unit, "power") \
-    X(row, Significant, "texture's rows") \
-    X(texture, Cell, "texture coordinate") \
-    X(colour, Colour, "colour") \
-    X(weight, Unit, "weight, coefficients")
+    X(row, Significant, "texture rows") \
+    X(texture, Cell, "texture coordinates") \
+    X(colour, Colour, "colours") \
+    X(weight, Unit, "weights")
 
 enum class Step {
 #define QRAY_STEP(name, quantity, what) name,

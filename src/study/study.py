@@ -188,7 +188,7 @@ def main():
     quick = sys.argv[1:] == ["quick"]
     study = run(quick)
     study.draw(study.folder)
-    bits.study(study.folder)
+    bits.study(study.folder, quick)
     print(f"{len(study.rows)} settings of boards in {study.folder}/boards.csv; plots beside it")
 
 
