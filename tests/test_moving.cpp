@@ -250,6 +250,32 @@ TYPED_TEST(MovingTest, WhatIsPlacedIsAsInTheText)
     }
 }
 
+// A sun's direction and a material's colour; in q16 and q32 every number, in floating point but for the last bit.
+TYPED_TEST(MovingTest, SunsAndColoursAreAsInTheText)
+{
+    using N = TypeParam;
+    const auto text = [](const std::string& sun, const std::string& colour) {
+        return "v\n" + std::string(any_view) + "\nangle 40\nhither 0\nresolution 16 12\nsun " + sun
+            + " 0.5 0.5 0.5\nmaterial colour " + colour + "\ns 0 0 0 1\n";
+    };
+    auto& s = storage<N>();
+    ASSERT_TRUE(loaded<N>(text("1 2 -3", "1 0.25 0.125"), moving()));
+    const std::string expected = emitted<N>();
+    const Direction<N> from = s.suns.data[0].from;
+    ASSERT_TRUE(loaded<N>(text("0 1 0", "0.5 0.5 0.5"), moving()));
+    EXPECT_NE(emitted<N>(), expected);
+    EXPECT_TRUE(place(s.suns.data[0], place_of<N>(8, 16, -24)));
+    EXPECT_TRUE(paint(s.mattes.data[0], place_of<N>(8, 2, 1)));
+    EXPECT_FALSE(paint(s.mattes.data[0], place_of<N>(9, 2, 1)));
+    EXPECT_FALSE(paint(s.mattes.data[0], place_of<N>(8, -1, 1)));
+    EXPECT_FALSE(place(s.suns.data[0], place_of<N>(0, 0, 0)));
+    if constexpr (!N::is_fixed) {
+        EXPECT_LE(distance(value(s.suns.data[0].from), value(from)), 2 * make<N>::unit_ulp());
+        s.suns.data[0].from = from;
+    }
+    EXPECT_EQ(emitted<N>(), expected);
+}
+
 TYPED_TEST(MovingTest, TurnsAreTurns)
 {
     using N = TypeParam;
@@ -329,6 +355,37 @@ TYPED_TEST(MovingTest, TreesFollow)
             ASSERT_TRUE(move(s.polygons.data[i], corners, motion, s.polygons.data[i], {s.vertices.data, s.normals.data}));
         refit(s.template view<with_tree>(), s.entries.data);
         EXPECT_TRUE((draw<N, with_tree>() == draw<N, without>())) << k;
+    }
+}
+
+// A polygon whose corners are not in one plane is met beside them by rays that are flat to it.
+TYPED_TEST(MovingTest, TreesFollowUnevenPolygons)
+{
+    using N = TypeParam;
+    constexpr Effects with_tree = flat();
+    constexpr Effects without = [] {
+        Effects e = flat();
+        e.flat_tree = false;
+        return e;
+    }();
+    for (const int seed : {1, 2, 5}) { // without what a box is wider by, these differed
+        Random random(static_cast<uint64_t>(seed) + 1);
+        const auto part = [&](int from, uint64_t range) { return static_cast<int>(random.bits() % range) + from; };
+        std::string text;
+        for (int i = 0; i < 48; i++) {
+            const int x = part(-48, 97), z = part(-72, 81), y = part(-4, 9), beside = part(-48, 97), behind = part(-72, 81);
+            text += "p 4 " + text_of(x, y, z) + text_of(x + 8, y, z) + text_of(x + 8, y + 1 + seed % 5, z + 8)
+                + text_of(x, y, z + 8) + "\n";
+            if (i % 2 != 0) // a wall
+                text += "p 4 " + text_of(beside, -8, behind) + text_of(beside + 8, -8, behind)
+                    + text_of(beside + 8, 8, behind) + text_of(beside, 8, behind) + "\n";
+        }
+        ASSERT_TRUE(loaded<N>("v\nfrom 0 " + eighths(seed) + " 9\nat 0 0 0\nup 0 1 0\nangle 60\nhither 0\nresolution 96 72\n"
+                                  + "l 1 2 3\nf 1 1 1 1 0 0 0 1\n" + text, moving()));
+        auto& s = storage<N>();
+        EXPECT_TRUE(move_all(Motion<N>(s.frame)));
+        refit(s.template view<with_tree>(), s.entries.data);
+        EXPECT_TRUE((draw<N, with_tree>() == draw<N, without>())) << seed;
     }
 }
 

@@ -360,6 +360,19 @@ constexpr Box<N> box_of(const S& s, const Corners<N>& corners)
     Box<N> box{*figure.first, *figure.first};
     for (uint32_t i = 1; i < figure.count; i++)
         box.add(figure[i], figure[i]);
+    // As reach_beside() of src/scene/shape/corners.hpp: how far beside corners off its plane a flat ray may meet it.
+    typename N::Length off{};
+    for (uint32_t i = 1; figure.count > 3 && i < figure.count; i++) {
+        const auto height = N::length(dot<N>(figure[i] - *figure.first, normal_of(s, corners)));
+        const auto size = height < N::length_zero ? -height : height;
+        off = size > off ? size : off;
+    }
+    if constexpr (N::is_fixed)
+        off = {off.raw <= 16 ? 0 : 64 * (off.raw >> N::Length::frac == 0 ? off.raw : 1 << N::Length::frac)};
+    else
+        off = off > 8 * N::ulp ? 64 * (off < 1 ? off : 1) : 0;
+    const Point<N> reach{off, off, off};
+    box.add(box.low - reach, box.high + reach);
     return box;
 }
 
