@@ -110,7 +110,8 @@ class Options(Cli):
             "-d": ["", "0", "65", "-1", "2.5", "x"],
             "--cutoff": ["", "-0.1", "1.1", "nan", "inf", "x", "1e400"],
             "--light-bits": ["", "0", "1", "3", "6", "16", "x"],
-            "--within": ["", "1,2,3", "1,2,3,4,5,x"],
+            "--within": ["", "1,2,3", "1,2,3,4,5,x", "1,2,3,4,5,6,7", "1,2,3,4,5,", ",,,,,", "1 2 3 4 5 6",
+                         "0,0,0,1,1,nan", "0,0,0,1,1,inf", "0,0,0,1,1,1e16", "-1e16,0,0,1,1,1"],
             "-j": ["", "0", "257", "-1", "1.5", "x"],
             "-o": [""],
         }
@@ -118,6 +119,12 @@ class Options(Cli):
             self.fails(2, f"qray: '{option}' is followed by nothing; expected ", "ok.nff", option)
             for value in values:
                 self.fails(2, f"qray: '{option} {re.escape(value)}': expected ", "ok.nff", option, value)
+        option = "--moving"  # of compile
+        self.fails(2, f"qray: '{option}' is followed by nothing; expected ", "compile", "ok.nff", option)
+        for value in ["", "x", "sphere", "Camera", "camera,", ",camera", "camera,,spheres", "spheres lights", "all,x",
+                      "vertices", "entries", "triangles", "spheres,smooth_triangles", "texels", "highlights", " all"]:
+            self.fails(2, f"qray: '{option} {re.escape(value)}': expected 'camera', 'all', or tables of ", "compile",
+                       "ok.nff", option, value)
 
     def test_unknown(self):
         for option in ("-x", "--statistics", "--cut", "--cutoff5", "-qs", "-q1", "--version=1", "---"):

@@ -171,6 +171,15 @@ class Compile(unittest.TestCase):
             self.assertFalse(os.path.exists(f"{FOLDER}/bad.hpp"))
         self.assertEqual([name for name in os.listdir(FOLDER) if name.startswith(".")], [])
 
+    # What is lit is solved where it stands.
+    def test_radiosity_stands_still(self):
+        lit = write("lit", VIEW + "radiosity 1\nl 0 2 2\np 3 -1 0 0 1 0 0 0 1 0\np 3 -1 0 1 1 0 1 0 0 2\n")
+        moved = qray("compile", lit, "--moving", "lights", "-o", f"{FOLDER}/lit.hpp")
+        self.assertEqual(moved.returncode, 1)
+        self.assertRegex(moved.stderr, rb"\A[^\n]*lit.nff: light between surfaces is [^\n]*'--moving camera'[^\n]*\n\Z")
+        self.assertFalse(os.path.exists(f"{FOLDER}/lit.hpp"))
+        self.assertEqual(qray("compile", lit, "--moving", "camera", "-o", f"{FOLDER}/lit.hpp").returncode, 0)
+
     def test_the_header_is_whole_or_as_it_was(self):
         good = write("good", VIEW + "s 0 0 0 1\n")
         out = f"{FOLDER}/whole.hpp"

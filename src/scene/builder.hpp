@@ -230,6 +230,11 @@ private:
         s.moving = settings.moving;
         if (settings.moving == 0)
             return true;
+        if (moves_tables() && d.grid_count != 0) {
+            snprintf(error.text, sizeof error.text, "light between surfaces is that of a scene that stands still; expected "
+                                                    "'--moving camera' alone, or no 'radiosity'");
+            return false;
+        }
         if constexpr (N::is_fixed) {
             const int exponent = -ilogb(frame.scale);
             if (const double far = largest(frame.origin) + world / frame.scale; exponent < -10 || far >= 32768) {
