@@ -3,6 +3,7 @@ python3 tests/firmware/test_frames.py; with --all, twenty frames of all of them 
 
 import math
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -88,6 +89,15 @@ class Frames(unittest.TestCase):
         status, text = make("frames")
         self.assertNotEqual(status, 0)
         self.assertIn("usage", text)
+
+    # The page's own line draws; without its box the eye leaves the scene's, and what to do is said.
+    def test_the_line_of_the_page(self):
+        page = contents("src/firmware/animations/README.md").decode()
+        words = re.search(r"^    make (frames .*?)\s+#", page, re.M)[1].split()
+        self.assertEqual(make(*words, "SIZE=16x12")[0], 0)
+        status, text = make(*(word for word in words if not word.startswith("WITHIN=")), "SIZE=16x12")
+        self.assertNotEqual(status, 0)
+        self.assertIn("a move that leaves the scene's frame was refused; expected WITHIN=", text)
 
 
 if __name__ == "__main__":
