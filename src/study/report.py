@@ -12,6 +12,7 @@ sys.dont_write_bytecode = True
 import bits  # noqa: E402
 import growth  # noqa: E402
 import ladder  # noqa: E402
+import moving  # noqa: E402
 import radiosity  # noqa: E402
 import runs  # noqa: E402
 import soft  # noqa: E402
@@ -65,6 +66,7 @@ REPORTS = {
     **growth.REPORTS,
     **radiosity.REPORTS,
     **soft.REPORTS,
+    **moving.REPORTS,
     "effects": (effects, lambda: ["+ " + name for name, *_ in ladder.STEPS[1:]]),
 }
 

@@ -20,7 +20,7 @@ from settings import BOARDS, board_facts, boards, numbers  # noqa: F401
 
 CACHE = "build/study/cache"
 JOBS = min(2, len(os.sched_getaffinity(0)))
-OPTIONS = ("SAMPLES", "ADAPTIVE", "DEPTH", "CUTOFF", "LIGHT_BITS")
+OPTIONS = ("SAMPLES", "ADAPTIVE", "DEPTH", "CUTOFF", "LIGHT_BITS", "ANIMATION", "FRAMES", "WITHIN")
 
 
 def tree_hash(*folders):
