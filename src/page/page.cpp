@@ -5,6 +5,12 @@
 #include "../scene/reader.hpp"
 #include "../study/scattered.hpp"
 #include "kernel.hpp"
+#if __has_include("../cli/explain.hpp")
+#include "../cli/explain.hpp"
+#define QRAY_EXPLAIN 1
+#else
+#define QRAY_EXPLAIN 0
+#endif
 #if __has_include("../study/flip.hpp")
 #include "../study/flip.hpp"
 #define QRAY_FLIP 1
@@ -63,6 +69,7 @@ static_assert(std::size(kernels) == std::size(cli::number_names));
 
 scene::Description description;
 scene::Room text, picture;
+scene::Settings settings; // of the picture
 const Kernel* kernel = nullptr; // of the picture
 cli::Built built;
 cli::RayCounts rays;
@@ -133,7 +140,7 @@ study::Scattered combs() { return {built.width, built.height}; }
 QRAY_EXPORT(describe) const char* describe()
 {
     used = 0;
-    put("{\"flip\": %d, \"numbers\": [", QRAY_FLIP);
+    put("{\"explain\": %d, \"numbers\": [", QRAY_EXPLAIN);
     for (const char* number : cli::number_names)
         put("%s\"%s\"", answer[used - 1] == '[' ? "" : ", ", number);
     put("], \"grid\": %u, \"levels\": %u, \"depth\": %u, \"places\": %u}", scene::Settings::max_grid,
@@ -192,7 +199,6 @@ QRAY_EXPORT(solve) const char* solve()
 QRAY_EXPORT(build) const char* build(const char* number, uint32_t width, uint32_t height, uint32_t grid, uint32_t levels,
                                      double threshold, uint32_t depth, double cutoff)
 {
-    scene::Settings settings;
     settings.width = width;
     settings.height = height;
     settings.grid = grid;
@@ -246,6 +252,45 @@ QRAY_EXPORT(comb) uint8_t* comb(uint32_t k)
     kernel->pixels(x, y, all.stride(), all.length(), to, rays);
     return to;
 }
+
+#if QRAY_EXPLAIN
+cli::Explanation explanations[2];
+const char* explained[2];
+
+// Why a pixel of the scene that was built last has its colour, as the first or the second of two.
+QRAY_EXPORT(explain) void explain(uint32_t which, uint32_t x, uint32_t y)
+{
+    uint32_t number = 0;
+    while (strcmp(kernel->name, cli::number_names[number]) != 0)
+        number++;
+    explained[which] = kernel->name;
+    cli::Explanation& e = explanations[which];
+    e.samples.count = e.rays.count = e.lights.count = 0;
+    e.whole = true;
+    cli::explain_pixel(static_cast<cli::Number>(number), description, x, y, e);
+}
+
+// That as text, of one or of both.
+QRAY_EXPORT(explanation) const char* explanation(uint32_t count)
+{
+    static scene::Bytes all;
+    all.size = 0;
+    const auto append = [](void*, const char* bytes, size_t size) {
+        if (!cli::grow_room(all.room, 2 * (all.size + size) + 1))
+            return false;
+        memcpy(all.room.at + all.size, bytes, size);
+        all.size += size;
+        return true;
+    };
+    scene::Source source(append, nullptr);
+    const cli::Explained first{explained[0], explanations[0]}, beside{explained[1], explanations[1]};
+    write_explanation(source, description, settings, first, count == 2 ? &beside : nullptr);
+    if (!source.finish() || !explanations[0].whole || (count == 2 && !explanations[1].whole))
+        return "not enough memory for all rays of this pixel";
+    all.room.at[all.size] = 0;
+    return reinterpret_cast<const char*>(all.room.at);
+}
+#endif
 
 QRAY_EXPORT(ray_count) double ray_count(uint32_t kind) { return static_cast<double>(rays.rays[kind]); }
 

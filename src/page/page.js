@@ -80,6 +80,8 @@ function state(name) {
     document.body.dataset.state = name;
 }
 
+const picture_size = () => shown.size === 'scene' ? [0, 0] : shown.size.split('x').map(Number);
+
 // One of the two pictures.
 class Side {
     constructor(index) {
@@ -137,7 +139,7 @@ class Side {
     }
 
     draw() {
-        const [width, height] = shown.size === 'scene' ? [0, 0] : shown.size.split('x').map(Number);
+        const [width, height] = picture_size();
         this.done = false;
         this.rgb = null;
         state('drawing');
@@ -227,7 +229,8 @@ function go_to(line, column) {
     const lines = shown.text.split('\n'), at = lines.slice(0, line - 1).join('\n').length + (line > 1 ? 1 : 0) + column - 1;
     const area = $('text');
     area.focus();
-    area.setSelectionRange(at, Math.min(at + 1, shown.text.length));
+    const length = column === 1 ? lines[line - 1].length : 1; // the line, or the byte
+    area.setSelectionRange(at, Math.min(at + length, shown.text.length));
     area.scrollTop = (line - 6) * parseFloat(getComputedStyle(area).lineHeight);
 }
 function scene_read(side) {
@@ -286,9 +289,9 @@ function compare() {
                                                                         element('dd', {textContent: value})]));
         if (chosen_pixel === null)
             chosen_pixel = worst_pixel();
-        show_pixel();
         state('done');
         survey();
+        show_pixel();
     });
 }
 
@@ -336,6 +339,25 @@ function show_pixel() {
         element('b', {textContent: `Pixel ${x}, ${y}: ${apart === 0 ? 'equal' : `${apart} level${apart === 1 ? '' : 's'} apart`}`}),
         ...sides.map(side => lens(`${side.name}: ${of(side, at).join(' ')}`, i => of(side, i))),
         lens('difference', i => colours[compared.map[i]]));
+    clearTimeout(asking);
+    if (told.explain && $('why').open)
+        asking = setTimeout(explain, 100);
+}
+// The rays of the pixel: of picture A, and of B beside it where that is drawn alike but for the number system.
+let asking = 0;
+function explain() {
+    if (sides.some(s => !s.done || s.failed))
+        return;
+    const [a, b] = shown.sides, both = a.number !== b.number && same({...a, number: b.number}, b);
+    const [x, y] = chosen_pixel, [width, height] = picture_size();
+    judge.start({kind: 'explain', width, height, x, y, settings: both ? [a, b] : [a]}, m => {
+        if (m.solving !== undefined)
+            return;
+        // Lines of the text lead there.
+        $('explain').replaceChildren(...(m.text ?? m.failed).split(/(line \d+)/).map((part, i) => i % 2 === 0 ? part
+            : element('button', {type: 'button', textContent: part, onclick: () => go_to(+part.slice(5), 1)})));
+        $('explain').dataset.pixel = `${x},${y}`;
+    });
 }
 
 // The frontier: settings that are worth choosing on a board.
@@ -344,7 +366,7 @@ const samplings = [{samples: 1, levels: 0}, {samples: 4, levels: 0}, {samples: 1
                    {samples: 1, levels: 3}];
 let found = [], survey_key = null, chosen_point = null;
 function survey() {
-    const [width, height] = shown.size === 'scene' ? [0, 0] : shown.size.split('x').map(Number);
+    const [width, height] = picture_size();
     const key = JSON.stringify([shown.text, shown.size]);
     if (key === survey_key)
         return;
@@ -551,6 +573,8 @@ async function start() {
     sides = [new Side(0), new Side(1)];
     $('pictures').append(...sides.map(side => side.root));
     choose_pixels($('map'));
+    $('why').hidden = !told.explain;
+    $('why').ontoggle = show_pixel;
     $('worst').onclick = () => compared !== null && choose(...worst_pixel());
     show_scale();
 

@@ -108,6 +108,16 @@ const jobs = {
         postMessage({id: job.id, figures, map}, [map.buffer]);
     },
 
+    // Why a pixel has its colour, where a is drawn so, and beside it b.
+    async explain(job) {
+        read(job);
+        for (const [which, s] of job.settings.entries()) {
+            build(job, s);
+            wasm.explain(which, job.x, job.y);
+        }
+        postMessage({id: job.id, text: string(wasm.explanation(job.settings.length))});
+    },
+
     // Scattered pixels of each setting, against those of the first.
     async frontier(job) {
         read(job);

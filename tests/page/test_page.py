@@ -197,6 +197,25 @@ class PageTest(unittest.TestCase):
         self.wait("done")
         self.assertEqual(self.bytes("B"), picture(scene("balls")))
 
+    @unittest.skipUnless(os.path.exists("src/cli/explain.hpp"), "no qray explain")
+    def test_why_a_pixel_has_its_colour(self):
+        self.number("B", "double")
+        self.element("summary").click()
+        x, y = self.script("return chosen_pixel")
+        self.assertEqual(self.script("return compared.map[80 * chosen_pixel[1] + chosen_pixel[0]] === compared.most"), True)
+        self.element("#map").send_keys(Keys.ARROW_RIGHT, Keys.ARROW_DOWN)
+        place = f"{x + 1},{y + 1}"
+        self.wait(place, "document.getElementById('explain').dataset.pixel")
+        said = subprocess.run(["build/qray", "explain", "-q", "-n", "q16,double", "-s", SIZE, "scenes/showcase.nff", place],
+                              stdout=subprocess.PIPE, check=True).stdout.decode()
+        self.assertEqual(self.script("return document.getElementById('explain').textContent"), said.split("\n", 1)[1])
+        # A line of the text is a button that leads there.
+        button = self.element("#explain button")
+        line = int(button.text.split()[1])
+        button.click()
+        self.assertEqual(self.script("const t = document.activeElement; return t.value.slice(t.selectionStart, t.selectionEnd)"),
+                         scene("showcase").split("\n")[line - 1])
+
     def test_a_change_ends_what_is_being_drawn(self):
         self.script("shown.sides[1].samples = 4096; sides[1].draw()")
         self.wait(True, "sides[1].progress.value > 0")
