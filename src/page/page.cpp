@@ -199,6 +199,11 @@ QRAY_EXPORT(solve) const char* solve()
 QRAY_EXPORT(build) const char* build(const char* number, uint32_t width, uint32_t height, uint32_t grid, uint32_t levels,
                                      double threshold, uint32_t depth, double cutoff)
 {
+    using scene::Settings;
+    const auto is_share = [](double v) { return v >= 0 && v <= 1; };
+    if (grid - 1 >= Settings::max_grid || levels > Settings::max_levels || depth - 1 >= Settings::max_depth
+        || !is_share(threshold) || !is_share(cutoff))
+        return answer_error("settings out of range"); // of a link
     settings.width = width;
     settings.height = height;
     settings.grid = grid;

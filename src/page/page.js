@@ -19,12 +19,14 @@ const short = n => {
     const e = Math.min(Math.floor(Math.log10(Math.max(n, 1)) / 3), 4);
     return (n / 1000 ** e).toPrecision(3).replace(/e\+.*/, '') + ['', ' k', ' M', ' G', ' T'][e];
 };
+const duration = s => s < 0.1 ? `${(1000 * s).toPrecision(2)} ms` : s < 99 ? `${s.toPrecision(2)} s` : s < 5900
+    ? `${(s / 60).toPrecision(2)} min` : `${(s / 3600).toPrecision(2)} h`;
 
 // What is shown: the scene's name, or its text where that is not the one of this name, and how each side is drawn.
 const first_scene = 'showcase';
 const drawing = {number: 'q32', samples: 1, levels: 0, threshold: 1 / 16, depth: 5, cutoff: 0.0014};
 const truth = {number: 'double', samples: 64, levels: 0, threshold: 1 / 16, depth: 8, cutoff: 0};
-const shown = {scene: first_scene, text: data.scenes[first_scene], size: '320x240', board: 'microbit',
+const shown = {scene: first_scene, text: data.scenes[first_scene], size: '320x240', board: 'microbit', clock: 48,
                sides: [{...drawing, number: 'q16'}, {...drawing}]};
 const is_changed = () => shown.text !== data.scenes[shown.scene];
 const scene_file = () => is_changed() ? 'scene.nff' : `scenes/${shown.scene}.nff`;
@@ -280,7 +282,7 @@ function compare() {
         paint(canvas, new Uint8Array(Array.from(m.map, level => colours[level]).flat()), 0);
         const rows = [['PSNR', mean === 0 ? 'equal' : `${compared.psnr.toFixed(1)} dB`]];
         if (f.flip !== undefined)
-            rows.push(['FLIP', `${f.flip.toFixed(4)} mean; ${(100 * f.seen).toFixed(2)} % of pixels can be seen to differ`]);
+            rows.push(['FLIP, mean', f.flip.toFixed(4)], ['Seen to differ', `${(100 * f.seen).toFixed(2)} % of pixels`]);
         rows.push(['Pixels that differ', `${spaced(f.differ)} of ${spaced(width * height)}`],
                   ['Largest difference', `${f.most} of 255 levels`],
                   ['Time here, A : B', `${(a.ms / 1000).toFixed(2)} s : ${(b.ms / 1000).toFixed(2)} s`],
@@ -390,30 +392,36 @@ function survey() {
 }
 // Instructions a ray: those of this very scene where the study has them, else the mean of its scenes, and how far they are from it.
 function cost(board, number) {
-    const known = data.costs[board][number];
-    if (known === undefined)
+    if (data.costs[board][number] === undefined)
         return null;
+    const {rays: known, cycles} = data.costs[board][number];
     if (!is_changed() && known[shown.scene] !== undefined)
-        return {mean: known[shown.scene], own: true};
+        return {mean: known[shown.scene], own: true, cycles};
     const all = Object.values(known);
-    return {mean: Math.exp(all.reduce((sum, n) => sum + Math.log(n), 0) / all.length), own: false,
+    return {mean: Math.exp(all.reduce((sum, n) => sum + Math.log(n), 0) / all.length), own: false, cycles,
             low: Math.min(...all), high: Math.max(...all)};
 }
 function show_frontier() {
     const points = found.flatMap(p => {
         const c = cost(shown.board, p.settings.number);
-        return c === null ? [] : [{...p, instructions: p.rays * c.mean}];
+        if (c === null)
+            return [];
+        const instructions = p.rays * c.mean;
+        return [{...p, instructions, seconds: instructions * c.cycles / (1e6 * shown.clock)}];
     }).sort((p, q) => p.instructions - q.instructions);
     let best = -Infinity;
     for (const p of points) {
         p.best = p.db > best + 0.1; // less is chance
         best = Math.max(best, p.db);
     }
-    const c = cost(shown.board, 'q32') ?? {}, scenes = Object.keys(data.costs[shown.board].q32 ?? {});
+    const c = cost(shown.board, 'q32') ?? {}, scenes = Object.keys(data.costs[shown.board].q32?.rays ?? {});
     $('source').textContent = `Instructions: rays counted here, on ${spaced(surveyed_pixels)} pixels scattered over the picture, times `
         + (c.own ? `the instructions a ray that the study measured for scenes/${shown.scene}.nff.`
                  : `the study's instructions a ray, of which this scene has none of its own: the mean of ${scenes.join(', ')}, `
                    + `which lie from ${spaced(c.low)} to ${spaced(c.high)} in q32. Take it as a first guess; make plan measures.`)
+        + ` Time: at ${shown.clock} MHz, `
+        + (c.cycles === 1 ? 'a cycle an instruction' : `${c.cycles.toFixed(2)} cycles an instruction in q32, as the study models this core`)
+        + ', and memory that never waits.'
         + ` Accuracy is measured on the same pixels against double with ${truth.samples} samples and depth ${truth.depth}.`;
     $('plot').replaceChildren(points.length < 2 ? element('p', {className: 'hint', textContent: 'measuring …'}) : plot(points),
                               element('p', {className: 'key'}, ...[...new Set(points.map(p => p.settings.number))].map(number =>
@@ -421,7 +429,8 @@ function show_frontier() {
     $('points').replaceChildren(...points.filter(p => p.best).map(p => element('li', {}, element('button', {
         type: 'button', className: same(p.settings, chosen_point) ? 'now' : '', onclick: () => choose_point(p),
     }, element('span', {textContent: describe_settings(p.settings)}), element('span', {textContent: `${p.db.toFixed(1)} dB`}),
-       element('span', {textContent: `${short(p.instructions)} instr.`})))));
+       element('span', {textContent: `${short(p.instructions)} instr.`}),
+       element('span', {textContent: duration(p.seconds)})))));
     for (const [i, p] of points.filter(p => p.best).entries())
         $('points').children[i].style.setProperty('--number', `var(--${p.settings.number}, var(--other))`);
 }
@@ -484,7 +493,7 @@ function show_chosen(p) {
     chosen_point = p?.settings ?? null;
     $('run').hidden = false;
     $('chosen').textContent = p === null ? 'Picture A on this board:'
-        : `Picture A, ${describe_settings(p.settings)}: ${p.db.toFixed(1)} dB for ${short(p.instructions)} instructions (${short(p.rays)} rays).`
+        : `Picture A, ${describe_settings(p.settings)}: ${p.db.toFixed(1)} dB for ${short(p.instructions)} instructions, ${duration(p.seconds)} (${short(p.rays)} rays).`
           + ' Picture B is what it is measured against.';
     show_run();
 }
@@ -524,6 +533,8 @@ function read_link() {
             shown.size = kept.size;
         if (data.boards[kept.board] !== undefined)
             shown.board = kept.board;
+        if (kept.clock > 0)
+            shown.clock = +kept.clock;
         kept.sides?.forEach((side, i) => {
             for (const key of Object.keys(drawing))
                 if (typeof side[key] === typeof drawing[key] && (key !== 'number' || told.numbers.includes(side[key])))
@@ -547,6 +558,7 @@ function show_all() {
     $('load').value = shown.scene;
     $('size').value = shown.size;
     $('board').value = shown.board;
+    $('clock').value = shown.clock;
     draw_all();
 }
 let typing = 0;
@@ -592,6 +604,13 @@ async function start() {
     $('board').onchange = () => {
         shown.board = $('board').value;
         show_chosen(null);
+        show_frontier();
+        save_link();
+    };
+    $('clock').oninput = () => {
+        if (!($('clock').value > 0))
+            return;
+        shown.clock = +$('clock').value;
         show_frontier();
         save_link();
     };

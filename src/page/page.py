@@ -15,21 +15,34 @@ from settings import BOARDS  # noqa: E402
 STUDY = "src/study/README.md"
 
 
-def costs():
-    """Instructions a ray from the study's table of boards: {board: {number: {scene: instructions}}}."""
-    with open(STUDY, encoding="utf-8") as file:
-        table = file.read().split("<!-- report:boards -->")[1].split("<!-- /report -->")[0]
-    names = {label: board for board, label in BOARDS.items()}
-    found = {board: {} for board in BOARDS}
-    scene = column = None
-    for line in table.splitlines():
+def table(report):
+    """Rows of the study's tables of boards, {heading: cell}, each with the scene that is named above it."""
+    scene = head = None
+    for line in read(STUDY).split(f"<!-- report:{report} -->")[1].split("<!-- /report -->")[0].splitlines():
         cells = [cell.strip() for cell in line.split("|")[1:-1]]
         if title := re.match(r"`scenes/(\S+)\.nff`", line):
             scene = title[1]
-        elif "instructions/ray" in cells:
-            column = cells.index("instructions/ray")
-        elif cells and cells[0] in names:
-            found[names[cells[0]]].setdefault(cells[1], {})[scene] = int(re.sub(r"\D", "", cells[column]))
+        elif "board" in cells or not cells:
+            head = cells
+        elif head and not set("".join(cells)) <= set("-:"):
+            yield dict(zip(head, cells), scene=scene)
+
+
+def count(cell):
+    return int(re.sub(r"\D", "", cell))
+
+
+def costs():
+    """{board: {number: {"rays": {scene: instructions a ray}, "cycles": of an instruction}}}"""
+    names = {label: board for board, label in BOARDS.items()}
+    found = {board: {} for board in BOARDS}
+    for row in table("boards"):
+        own = found[names[row["board"]]].setdefault(row["number"], {"rays": {}, "cycles": 1})
+        own["rays"][row["scene"]] = count(row["instructions/ray"])
+    for row in table("study"):
+        both = [sum(count(cell) for head, cell in row.items() if str(head).endswith(f"{what}/pixel"))
+                for what in ("cycles", "instructions")]
+        found[names[row["board"]]][row["number"]]["cycles"] = round(both[0] / both[1], 3)
     if not all(found.values()):
         sys.exit(f"{STUDY}: no table of boards with instructions a ray for each of {', '.join(BOARDS.values())}")
     return found
