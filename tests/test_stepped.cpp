@@ -23,7 +23,8 @@ TEST(Rounding, IsToTheNearestHalvesUp)
     SplitMix random{1};
     for (int i = 0; i < 100000; i++) {
         const int64_t k = static_cast<int64_t>(random.bits()) >> 33;
-        EXPECT_EQ(ten(std::ldexp(static_cast<double>(k), -24)), std::ldexp(static_cast<double>((k + (1 << 13)) >> 14), -10)) << k;
+        const int64_t rounded = (k + (1 << 13)) >> 14;
+        EXPECT_EQ(ten(static_cast<double>(k) * 0x1p-24), static_cast<double>(rounded) * 0x1p-10) << k;
     }
     const Rounding four(4);
     EXPECT_EQ(four(0.5 / 16), 1.0 / 16);
@@ -94,8 +95,8 @@ TEST(Stepped, RoundsColours)
 
 TEST(Stepped, RoundsCoordinatesAfterTheBuildersScale)
 {
-    // Black between two white figures from x = -0.6 to 0.6; with one bit behind the point from -0.5 to 0.5, and where what is
-    // larger than 62 is scaled by 1/2, which makes them +-0.3, from -1 to 1.
+    // Black between two white figures from x = -0.6 to 0.6; with one bit behind the point from -0.5 to 0.5, and where
+    // what is larger than 62 is scaled by 1/2, which makes them +-0.3, from -1 to 1.
     for (const auto& [far, edge] : {std::pair{20, 0.5}, {70, 1.0}}) {
         char text[400];
         snprintf(text, sizeof text,

@@ -63,7 +63,8 @@ class Parts(unittest.TestCase):
     def test_bits_that_are_needed_and_what_they_predict(self):
         b = bits.Bits.__new__(bits.Bits)
         b.bits = [4, 6, 8]
-        self.assertEqual([b.needed(row, 60) for row in ([50, 61, 70], [61, 50, 70], [70, 61, 60], [1, 2, 3])], [6, 8, 4, None])
+        rows = [50, 61, 70], [61, 50, 70], [70, 61, 60], [1, 2, 3]
+        self.assertEqual([b.needed(row, 60) for row in rows], [6, 8, 4, None])
         # Squares that make 0 dB each, of a shade or of an edge: three edges of 2, 3 and 6 are as far as one of 7.
         one = 255 ** 2
         b.found = {"s": {"levels": 1, "numbers": {"n": {"reached": [one, 0], "together": [0, one * 10],

@@ -129,10 +129,11 @@ void print_steps()
     printf(", \"steps\": [");
     for (int step = 0; step < steps; step++) {
         const auto& [name, quantity, what] = names[step];
-        printf("%s{\"name\": \"%s\", \"of\": \"%s\", \"what\": \"%s\", \"squares\": ", step == 0 ? "" : ", ", name, quantity,
-               what);
-        const Squares most = squares(Step{step}, least_bits); // if 0, the scene has no such step
-        print_list(count, [&](int i) { return i == 0 || most.shade + most.other == 0 ? most : squares(Step{step}, bits(i)); });
+        printf("%s{\"name\": \"%s\", \"of\": \"%s\", \"what\": \"%s\", \"squares\": ", step == 0 ? "" : ", ", name,
+               quantity, what);
+        const Squares most = squares(Step{step}, least_bits);
+        const bool has_step = most.shade + most.other != 0;
+        print_list(count, [&](int i) { return i == 0 || !has_step ? most : squares(Step{step}, bits(i)); });
         putchar('}');
     }
     printf("], \"together\": ");

@@ -201,8 +201,9 @@ def panel(study, path):
 
 
 def steps(b, cost, path):
-    """Of bits.py: accuracy by step and bits, the bits that each scene needs of each step, and what a step takes on boards."""
-    figure, (left, right, bars) = plt.subplots(1, 3, figsize=(16, 6.2), sharey=True, width_ratios=[6, 7, 3 if cost else 0.01])
+    """Of bits.py: accuracy by step and bits, the bits that each scene needs, and what a step takes on boards."""
+    figure, (left, right, bars) = plt.subplots(1, 3, figsize=(16, 6.2), sharey=True,
+                                               width_ratios=[6, 7, 3 if cost else 0.01])
     nothing, most = [math.nan] * len(b.bits), b.bits[-1] + 2
 
     def heat(axes, columns, values, text, **options):
@@ -216,9 +217,10 @@ def steps(b, cost, path):
         axes.grid(False)
 
     rows = [*b.at.values(), b.together]
-    heat(left, b.bits, [b.median(row) if row else nothing for row in rows], lambda v: f"{v:.0f}", cmap="viridis", vmin=20, vmax=99)
+    heat(left, b.bits, [b.median(row) if row else nothing for row in rows], lambda v: f"{v:.0f}", cmap="viridis",
+         vmin=20, vmax=99)
     left.set(title="dB, median of scenes", xlabel="bits")
-    left.set_yticks(range(len(rows)), [*(s["what"] for s in b.steps), "all together"])
+    left.set_yticks(range(len(rows)), [*b.what.values(), "all together"])
     heat(right, [name_of(s) for s in b.found],
          [[(b.needed(row[s]) or most) if s in row else math.nan for s in b.found] for row in rows],
          lambda v: f"{v}" if v < most else ">", cmap="magma", vmin=4, vmax=most)
@@ -227,8 +229,9 @@ def steps(b, cost, path):
     bars.set_title("instructions a call" if cost else "")
     for k, (board, number) in enumerate(cost):
         own = cost[board, number]
-        bars.barh([y + (k - 1.5) * 0.2 for y in range(len(b.names))], [own[n] for n in b.names], 0.2,
-                  color=TONES[k // 2], alpha=1 if number != b.numbers[0] else 0.45, label=f"{runs.BOARDS[board]} {number}")
+        bars.barh([y + ((k + 0.5) / len(cost) - 0.5) * 0.8 for y in range(len(b.what))], [own[n] for n in b.what],
+                  0.8 / len(cost), color=COLOURS.get(number, "#117a8b"), label=f"{runs.BOARDS[board]} {number}",
+                  alpha=1 if board == next(iter(cost))[0] else 0.5)
     if cost:
         bars.legend(loc="lower right")
     else:

@@ -1,7 +1,7 @@
-// The number system of the study: double, but each step of the tracer rounds what it finds to a number of bits of its own.
-// It is no model beside the tracer. Where a step has an operation or a function of its own, that is given here for this
-// system, and the tracer's own text calls it; where several steps share an operation, the file that calls tells which it is.
-// Nothing of this is libm's, so that all numbers are the same on every machine.
+// The number system of the study: double, but each step of the tracer rounds what it finds to a number of bits of its
+// own. It is no model beside the tracer: where a step has an operation or a function of its own, that is given here for
+// this system, and the tracer's own text calls it; where several steps share an operation, the file that calls tells
+// which it is. Nothing of this is libm's, so that all numbers are the same on every machine.
 #pragma once
 
 #include <qray/picture/render.hpp>
@@ -151,9 +151,11 @@ struct Stepped : Double {
     }
     QRAY_INLINE static double colour(double v) { return keep<Step::colour>(v); }
 
-    QRAY_INLINE static double scaled(double v, int32_t by) { return v * static_cast<double>(1 << by); }
-    QRAY_INLINE static double fine(double v, int32_t by) { return scaled(v, by); }
-    QRAY_INLINE static double fine_sub(double a, double b, int32_t by) { return keep<Step::perpendicular>(scaled(a - b, by)); }
+    QRAY_INLINE static double fine(double v, int32_t by) { return v * static_cast<double>(1 << by); }
+    QRAY_INLINE static double fine_sub(double a, double b, int32_t by)
+    {
+        return keep<Step::perpendicular>(fine(a - b, by));
+    }
     QRAY_INLINE static double coarse(double v, int32_t by, const char* file = __builtin_FILE())
     {
         v /= static_cast<double>(1 << by);
@@ -175,7 +177,7 @@ struct Stepped : Double {
         t = quotient(t);
         return is;
     }
-    QRAY_INLINE static double ratio(double v, double inverse_r) { return keep<Step::normal>(Double::ratio(v, inverse_r)); }
+    QRAY_INLINE static double ratio(double v, double inverse_r) { return keep<Step::normal>(v * inverse_r); }
     QRAY_INLINE static void sharpen(double& x, double& y, double& z) { Within<Step::normal>::sharpen(x, y, z); }
     QRAY_INLINE static double power_whole(double x, Shine e) { return keep<Step::power>(Double::power_whole(x, e)); }
     QRAY_INLINE static double power(double x, Shine e) { return keep<Step::power>(Double::power(x, e)); }
@@ -240,7 +242,8 @@ inline constexpr Vec<double> mirrored<study::Stepped>(const Vec<double>& d, cons
     return mirrored<study::Within<study::Step::mirrored>>(d, n, n_d);
 }
 template <>
-inline constexpr bool refracted<study::Stepped>(const Vec<double>& d, const Vec<double>& n, double n_d, double eta, Vec<double>& out)
+inline constexpr bool refracted<study::Stepped>(const Vec<double>& d, const Vec<double>& n, double n_d, double eta,
+                                                Vec<double>& out)
 {
     return refracted<study::Within<study::Step::refracted>>(d, n, n_d, eta, out);
 }
@@ -253,12 +256,13 @@ inline constexpr bool intersect_plane<study::Stepped>(double num, double den, do
     return t > 0 && t <= limit;
 }
 template <>
-inline constexpr Vec<double> on_plane<study::Stepped>(const Vec<double>& c, const Vec<double>& normal, const Vec<double>& q)
+inline constexpr Vec<double> on_plane<study::Stepped>(const Vec<double>& c, const Vec<double>& normal,
+                                                      const Vec<double>& q)
 {
     return study::keep<study::Step::point>(on_plane<Double>(c, normal, q));
 }
-// Colours are often round decimals, whose 255-fold ends on a half. As in fixed point, those that rounding left up to 4 steps
-// below it count as on it, but where that would be seen.
+// Colours are often round decimals, whose 255-fold ends on a half. As in fixed point, those that rounding left up to 4
+// steps below it count as on it, but where that would be seen.
 template <>
 inline constexpr uint8_t Sample<study::Stepped>::byte(double v)
 {
@@ -343,7 +347,8 @@ constexpr Effects stepped_effects()
 // What a scene says of its materials and its lights.
 inline void round_tables(scene::Storage<Stepped>& s)
 {
-    const auto all = []<Step S, class T, class M>(std::integral_constant<Step, S>, scene::Array<T>& table, M T::*member) {
+    const auto all = []<Step S, class T, class M>(std::integral_constant<Step, S>, scene::Array<T>& table,
+                                                  M T::*member) {
         for (uint32_t i = 0; i < table.count; i++)
             table.data[i].*member = keep<S>(table.data[i].*member);
     };

@@ -1,5 +1,5 @@
-// Firmware that says what each step takes on a board: ticks of many calls, of the operations that the tracer has for it, with
-// the loads of what it takes and the stores of what it finds. QRAY_NUMBER is the number system, in fixed point.
+// Firmware that says what each step takes on a board: ticks of many calls of the operations that the tracer has for it,
+// with the loads of what it takes and the stores of what it finds. QRAY_NUMBER is the number system, in fixed point.
 #include "steps.hpp"
 
 #include <qray/qray.hpp>
@@ -27,7 +27,8 @@ constexpr Vec<F> of(int x, int y, int z)
 // A ball of radius 1, and a ray that meets it; numbers that a compiler does not see.
 struct Operands {
     Sphere<N> ball{};
-    Point<N> to_ball = of<N::Length>(6000, 7200, 7400), near = of<N::Length>(100, -200, 300), hit = of<N::Length>(480, -600, 640);
+    Point<N> to_ball = of<N::Length>(6000, 7200, 7400), near = of<N::Length>(100, -200, 300);
+    Point<N> hit = of<N::Length>(480, -600, 640);
     Direction<N> d = of<N::Unit>(480, 600, 640), n = of<N::Unit>(-600, -640, -480), out{};
     Pencil<N> pencil{};
     N::Length middle = of<N::Length>(12000), half = of<N::Length>(900), t{};

@@ -3,10 +3,10 @@
 
 namespace qray::study {
 
-// The steps: name, of which quantity of a number system its result is, and what it is. Significant: its bits are not those
-// behind the point, but all from the first that is set. Lengths are scene units after the builder's scale. With coordinates
-// go radii, with v.d what cones find in their own frame, with cosines the shares of light that are made of them, with
-// weights the coefficients of materials.
+// The steps: name, of which quantity of a number system its result is, and what it is. Significant: its bits are not
+// those behind the point, but all from the first that is set. Lengths are scene units after the builder's scale. With
+// coordinates go radii, with v.d what cones find in their own frame, with cosines the shares of light that are made of
+// them, with weights the coefficients of materials.
 #define QRAY_STEPS(X) \
     X(camera, Unit, "camera direction") \
     X(coordinate, Length, "coordinates") \
