@@ -1,5 +1,5 @@
-"""The price of each bit: how far pictures are off where a step of the tracer rounds to so many bits, and what the step takes
-on boards (bits.cpp, steps.cpp; stepped.hpp says how steps are told apart)."""
+"""The price of each bit: how far pictures are off where a step of the tracer rounds to so many bits, and what the step
+takes on boards (bits.cpp, steps.cpp; stepped.hpp says how steps are told apart)."""
 
 import concurrent.futures
 import csv
@@ -24,7 +24,7 @@ import run as boards_run  # noqa: E402
 SIZE, TARGET = "320x240", 60
 COSTS = ["microbit", "mps2_an385"]
 PROGRAM, NOTHING = "build/study/bits", "build/study/none"
-SOURCES = ["include", "src/scene", "src/cli", *(f"src/study/{name}" for name in ("bits.cpp", "stepped.hpp", "steps.hpp"))]
+SOURCES = ["include", "src/scene", "src/cli", "src/study/bits.cpp", "src/study/stepped.hpp", "src/study/steps.hpp"]
 
 
 def scenes():
@@ -85,8 +85,9 @@ class Bits:
         return (statistics.median_high(own), max(own)) if own else (None, None)
 
     def predicted(self, scene, number):
-        """Decibels: (reached, all steps rounded together, the sum of each alone). Squares of shades are added. Where edges
-        move, squares grow with how far, and ways that know nothing of each other add up to the root of their squares."""
+        """Decibels: (reached, all steps rounded together, the sum of each alone). Squares of shades are added. Where
+        edges move, squares grow with how far, and ways that know nothing of each other add up to the root of their
+        squares."""
         n = self.found[scene]["numbers"][number]
         shades, others = zip(*n["alone"])
         added = sum(shades) + math.hypot(*others)
@@ -164,22 +165,23 @@ def sentences(b, cost):
     narrow, wide, board = b.numbers[0], b.numbers[-1], COSTS[0]
     times = [sum(cost[c, wide].values()) / sum(cost[c, narrow].values()) for c in COSTS]
     more = {name: cost[board, wide][name] - cost[board, narrow][name] for name in b.what}
+    dear = listed([f"{b.what[n]} (+{more[n]:.0f} instructions)" for n in largest(more, 4)])
     shares = b.shares(narrow)
     worst = largest(shares, 3)
     each, at_once = (listed(["%d of %d scenes (`%s`)" % (*b.agree(n, kind), n) for n in b.numbers]) for kind in (2, 1))
     return "\n".join([
-        f"For {TARGET} dB, {named(most)} bits behind the point (median of {len(b.found)} scenes), {named(least)}, and half "
-        f"of all steps at most {middle}: one width for all is too narrow for the first or wasted on the last.",
-        f"Where a step moves edges, a bit halves the pixels that show something else, which is {gain(first, 8, 16):.1f} dB "
-        f"({b.what[first]}, from 8 to 16 bits); where it only shades, a bit is worth {gain('colour', 4, 8):.1f} dB "
+        f"For {TARGET} dB, {named(most)} bits behind the point (median of {len(b.found)} scenes), {named(least)}, and "
+        f"half of all steps at most {middle}: one width for all is too narrow for the first or wasted on the last.",
+        f"Where a step moves edges, a bit halves the pixels that show something else, which is "
+        f"{gain(first, 8, 16):.1f} dB ({b.what[first]}, from 8 to 16 bits); where it only shades, a bit is worth {gain('colour', 4, 8):.1f} dB "
         "(colours, from 4 to 8) until the picture's own 8 bits hide it: accuracy wants bits of directions and lengths.",
         f"The bits of `{wide}` cost {times[0]:.1f} times the instructions of `{narrow}` on the {BOARDS[board]}, which "
-        f"multiplies to 32 bits alone, but {times[1]:.1f} times on the {BOARDS[COSTS[1]]} (a call of each step); dearest on "
-        f"the {BOARDS[board]} are {listed([f'{b.what[n]} (+{more[n]:.0f} instructions)' for n in largest(more, 4)])}.",
+        f"multiplies to 32 bits alone, but {times[1]:.1f} times on the {BOARDS[COSTS[1]]} (a call of each step); "
+        f"dearest on the {BOARDS[board]} are {dear}.",
         f"Of the error of `{narrow}`, {100 * sum(shares[n] for n in worst):.0f} % is that of "
         f"{listed([b.what[n] for n in worst])} (mean of the scenes' shares): a bit more buys most there.",
-        f"The errors of all steps, each alone, predict what a number system reaches within 3 dB in {each}, and all steps "
-        f"rounded at once in {at_once}: a new one can be judged by this table before it is written."])
+        f"The errors of all steps, each alone, predict what a number system reaches within 3 dB in {each}, and all "
+        f"steps rounded at once in {at_once}: a new one can be judged by this table before it is written."])
 
 
 def study(folder, quick):
@@ -202,19 +204,19 @@ def report():
 
 {sentences(b, cost)}
 
-PSNR in dB to `double`, {b.size.replace('x', ' × ')} pixels, one sample, where one step alone rounds to so many bits behind the
-point and all else is `double`: the median of the scenes that have the step, then the bits for {TARGET} dB in half of these
-scenes, and in all. Lengths are scene units after the builder's scale, which makes a scene fill ±62. The bits of quotients and
-of texture rows are all that these have, those of texture coordinates are parts of a cell. With coordinates go radii, with
-v·d what cones find in their own frame, with cosines the shares of light that are made of them, with weights the coefficients
-of materials. At the right, instructions of one call of the step's operations, loads and stores included, in firmware that
-calls nothing else (`steps.cpp`); what stands in tables takes none.
+PSNR in dB to `double`, {b.size.replace('x', ' × ')} pixels, one sample, where one step alone rounds to so many bits
+behind the point and all else is `double`: the median of the scenes that have the step, then the bits for {TARGET} dB in
+half of these scenes, and in all. Lengths are scene units after the builder's scale, which makes a scene fill ±62. The
+bits of quotients and of texture rows are all that these have, those of texture coordinates are parts of a cell. With
+coordinates go radii, with v·d what cones find in their own frame, with cosines the shares of light that are made of
+them, with weights the coefficients of materials. At the right, instructions of one call of the step's operations, loads
+and stores included, in firmware that calls nothing else (`steps.cpp`); what stands in tables takes none.
 
 {steps_table(b, cost)}
-What a number system reaches, and what its widths say: all steps rounded to its bits at once (together), and the errors of
-each alone, added (sum): squares of bytes that are off by up to 2 levels, and of others, which lie where edges have moved, the
-root of the sum of the squares of these, as ways that know nothing of each other add up. What light maps round (`cornell`) is
-no step.
+What a number system reaches, and what its widths say: all steps rounded to its bits at once (together), and the errors
+of each alone, added (sum): squares of bytes that are off by up to 2 levels, and of others, which lie where edges have
+moved, the root of the sum of the squares of these, as ways that know nothing of each other add up. What light maps
+round (`cornell`) is no step.
 
 {numbers_table(b)}"""
 
