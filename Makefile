@@ -92,7 +92,7 @@ HAS_LANES := $(if $(LANES),$(shell grep -m1 -w avx2 /proc/cpuinfo 2> /dev/null))
 BESIDE    := $(if $(HAS_LANES),$(subst lanes_,kernel_,$(LANED)))
 build/sanitized/qray: $(patsubst build/%,build/sanitized/%,$(filter-out $(BESIDE),$(COMMAND))) $(BESIDE)
 	@$(CXX) -fsanitize=address,undefined $^ -pthread -o $@
-build/sanitized/tests/%: build/sanitized/obj/tests/%.o build/sanitized/obj/tests/tracer.o $(SANITIZED)
+build/sanitized/tests/%: $(patsubst %,build/sanitized/obj/tests/%.o,% tracer tracer_flat) $(SANITIZED)
 	@mkdir -p $(@D)
 	@$(CXX) -fsanitize=address,undefined $^ $(TEST_LIBS) -o $@
 build/sanitized/obj/src/%.o: src/%.cpp build/obj/flags

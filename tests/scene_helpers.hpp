@@ -23,12 +23,6 @@ constexpr scene::Settings compiled(bool is = true)
     s.compiled = is;
     return s;
 }
-constexpr Effects flat()
-{
-    Effects e = everything(5);
-    e.tree = false;
-    return e;
-}
 
 // Parses and builds into storage<N>().
 template <class N>

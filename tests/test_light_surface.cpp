@@ -120,13 +120,11 @@ TYPED_TEST(LightSurfaces, KnowOnWhichSideTheLightIs)
 TYPED_TEST(LightSurfaces, OfAFigureEndAtItsOutline)
 {
     using N = TypeParam;
-    constexpr auto effects = [](bool tree, bool flat_tree) {
+    constexpr Effects no_tree = [] {
         Effects e;
-        e.polygon = e.patch = e.triangle = e.smooth_triangle = e.light = e.panel = e.shadow = e.light_surface = true;
-        e.tree = tree;
-        e.flat_tree = flat_tree;
+        e.polygon = e.patch = e.light = e.panel = e.shadow = e.light_surface = true;
         return e;
-    };
+    }();
     std::string others; // enough for a tree
     for (int i = 0; i < 45; i++)
         others += " p 3" + text_of({-8, 0.1 * i, -8}) + text_of({-7, 0.1 * i, -8}) + text_of({-8, 0.1 * i, -7});
@@ -145,10 +143,10 @@ TYPED_TEST(LightSurfaces, OfAFigureEndAtItsOutline)
                     + text_of({-8, 2 - 2 * side, 8}) + figure + others;
                 ASSERT_TRUE(loaded<N>(text));
                 EXPECT_TRUE(storage<N>().effects.light_surface);
-                EXPECT_GT((light_at<N, effects(false, false)>(0, 0).x), 0.9);
-                EXPECT_GT((light_at<N, effects(true, false)>(0, 0).x), 0.9);
+                EXPECT_GT((light_at<N, no_tree>(0, 0).x), 0.9);
+                EXPECT_GT(light_at<N>(0, 0).x, 0.9);
                 ASSERT_TRUE(loaded<N>(text, compiled()));
-                EXPECT_GT((light_at<N, effects(false, true)>(0, 0).x), 0.9);
+                EXPECT_GT((light_at<N, flat()>(0, 0).x), 0.9);
             }
 }
 

@@ -129,7 +129,7 @@ TYPED_TEST_SUITE(LookUp, NumberSystems, SystemNames);
 template <class N>
 Rgb<N> light_at(uint32_t place, bool inside, const scene::Frame& frame, const Vec3d& p)
 {
-    const auto view = storage<N>().template view<everything(5)>();
+    const auto view = storage<N>().template view<scene::desktop_effects()>();
     return light_of_surfaces(view, make_tag(place, 0), inside, scene::Convert<N>::point(frame.point(p)));
 }
 
@@ -167,10 +167,10 @@ TYPED_TEST(LookUp, OfAClosedRoomOfOneColour)
             + (*inner != 0 ? box(-0.9, -0.3) : "");
         ASSERT_EQ(error_of(text), "");
         build<N>();
-        const auto view = storage<N>().template view<everything(5)>();
+        const auto view = storage<N>().template view<scene::desktop_effects()>();
         for (uint32_t k = 0; k < 256; k += 7) {
             Rgb<N> c{};
-            NoCount count;
+            RayCount count;
             c = trace(view, eye_ray(view, view.camera.row(static_cast<int>(k / 16 * 2) - 15) + view.camera.right * (static_cast<int>(k % 16 * 2) - 15)), count,
                       EyeSample{});
             const double bytes = NarrowFixed<N> ? 0.003 : 0.002;
@@ -353,11 +353,12 @@ TEST(Radiosity, OfHostileScenes)
         }
         build<q32>();
         build<Double>();
-        const auto q = storage<q32>().view<everything(5)>();
-        const auto d = storage<Double>().view<everything(5)>();
+        const auto q = storage<q32>().view<scene::desktop_effects()>();
+        const auto d = storage<Double>().view<scene::desktop_effects()>();
         for (uint32_t k = 0; k < 4; k++) {
-            render_pixel(q, k % 2, k / 2);
-            render_pixel(d, k % 2, k / 2);
+            RayCount count;
+            render_pixel(q, k % 2, k / 2, count);
+            render_pixel(d, k % 2, k / 2, count);
         }
     }
     EXPECT_GT(solved, 30);

@@ -22,13 +22,6 @@ constexpr Effects see_through()
     e.light = e.shadow = e.see_through = true;
     return e;
 }
-constexpr Effects glass()
-{
-    Effects e;
-    e.disc = e.mirror = e.transmit = true;
-    e.depth = 64;
-    return e;
-}
 
 // Eye and box at the origin, so that the builder moves and scales nothing but by a power of two.
 const std::string view = "v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3\n";
@@ -45,6 +38,18 @@ Ray<N> ray(const Vec3& from, const Vec3& along)
     return make<N>::ray({scaled<N>(from.x), scaled<N>(from.y), scaled<N>(from.z)}, along);
 }
 
+// Functions of their own, so that what they ask is compiled once for all who call them.
+template <class N>
+bool found(const Ray<N>& along, Hit<N>& hit)
+{
+    return nearest(storage<N>().template view<shapes()>(), along, hit);
+}
+template <class N>
+bool blocked(const Ray<N>& along, typename N::Length before)
+{
+    return light_blocked(storage<N>().template view<shapes()>(), along, before);
+}
+
 TYPED_TEST(TraceTest, NearestIsTheNearestOfAllKindsInAnyOrder)
 {
     using N = TypeParam;
@@ -56,17 +61,16 @@ TYPED_TEST(TraceTest, NearestIsTheNearestOfAllKindsInAnyOrder)
         for (int k = 0; k < 5; k++)
             text += objects[(first + k) % 5];
         ASSERT_TRUE(loaded<N>(text));
-        const auto scene = storage<N>().template view<shapes()>();
         Hit<N> hit{};
         for (double from : {8.0, 4.5, 3.5, 2.5, 1.5}) {
-            ASSERT_TRUE(nearest(scene, ray<N>({0, 0, from}, {0, 0, -1}), hit));
+            ASSERT_TRUE(found<N>(ray<N>({0, 0, from}, {0, 0, -1}), hit));
             // Inside the cylinder its far wall is at z = 1, the sphere at 1 too.
             const double z = from == 8 ? 5 : std::floor(from);
             EXPECT_NEAR(value(hit.t), scaled<N>(from - z), 4 * make<N>::length_ulp(32)) << from;
             EXPECT_LT(hit.tag.place(), 5u);
         }
-        ASSERT_FALSE(nearest(scene, ray<N>({0, 0, 6}, {0, 0, 1}), hit));
-        EXPECT_FALSE(nearest(scene, ray<N>({6, 6, 8}, {0, 0, -1}), hit));
+        ASSERT_FALSE(found<N>(ray<N>({0, 0, 6}, {0, 0, 1}), hit));
+        EXPECT_FALSE(found<N>(ray<N>({6, 6, 8}, {0, 0, -1}), hit));
     }
 }
 
@@ -77,11 +81,11 @@ TYPED_TEST(TraceTest, NearestNamesTheMaterialAndThePlace)
                                  "material colour 1 0 0\n s 0 0 -4 1\n"));
     const auto scene = storage<N>().template view<shapes()>();
     Hit<N> hit{};
-    ASSERT_TRUE(nearest(scene, ray<N>({0, 0, 8}, {0, 0, -1}), hit));
+    ASSERT_TRUE(found<N>(ray<N>({0, 0, 8}, {0, 0, -1}), hit));
     EXPECT_EQ(hit.tag.place(), 1u);
     EXPECT_EQ(hit.kind, Kind::sphere);
     EXPECT_EQ(value(scene.mattes[hit.tag.material()].colour), (Vec3{0, 1, 0}));
-    ASSERT_TRUE(nearest(scene, ray<N>({0, 0, -8}, {0, 0, 1}), hit));
+    ASSERT_TRUE(found<N>(ray<N>({0, 0, -8}, {0, 0, 1}), hit));
     EXPECT_EQ(hit.tag.place(), 2u);
     EXPECT_EQ(value(scene.mattes[hit.tag.material()].colour), (Vec3{1, 0, 0}));
     EXPECT_EQ(scene.mattes.count, 2u); // repeated materials are stored once
@@ -96,7 +100,7 @@ TYPED_TEST(TraceTest, SurfacesTurnTheirShadingNormalToTheViewer)
     for (double side : {8.0, 1.5, 0.0}) {
         const auto r = ray<N>({0, 0, side}, {0, 0, side == 1.5 ? 1. : -1});
         Hit<N> hit{};
-        ASSERT_TRUE(nearest(scene, r, hit));
+        ASSERT_TRUE(found<N>(r, hit));
         const Surface<N> s = surface_at(scene, r, hit);
         if (side > 0) {
             expect_near(value(s.geometric), {0, 0.6, 0.8}, near);
@@ -118,13 +122,12 @@ TYPED_TEST(TraceTest, OpaqueSurfacesBlockLightBeforeItsDistanceOnly)
     for (const char* object : {"s 0 0 0 1\n", "disc 0 0 0 0 0 1 1\n", "c 0 -1 0 1 0 1 0 1\n",
                                "p 3 -1 -1 0 1 -1 0 0 1 0\n", "pp 3 -1 -1 0 0 0 1 1 -1 0 0 0 1 0 1 0 0 0 1\n"}) {
         ASSERT_TRUE(loaded<N>(view + object));
-        const auto scene = storage<N>().template view<shapes()>();
         const auto r = ray<N>({0, 0, 6}, {0, 0, -1});
-        EXPECT_FALSE(light_blocked(scene, r, make<N>::length(scaled<N>(4)))) << object;
-        EXPECT_TRUE(light_blocked(scene, r, make<N>::length(scaled<N>(9)))) << object;
-        EXPECT_TRUE(light_blocked(scene, r, N::length_max)) << object;
-        EXPECT_FALSE(light_blocked(scene, ray<N>({0, 0, 6}, {0, 0, 1}), N::length_max)) << object;
-        EXPECT_FALSE(light_blocked(scene, ray<N>({3, 0, 6}, {0, 0, -1}), N::length_max)) << object;
+        EXPECT_FALSE(blocked<N>(r, make<N>::length(scaled<N>(4)))) << object;
+        EXPECT_TRUE(blocked<N>(r, make<N>::length(scaled<N>(9)))) << object;
+        EXPECT_TRUE(blocked<N>(r, N::length_max)) << object;
+        EXPECT_FALSE(blocked<N>(ray<N>({0, 0, 6}, {0, 0, 1}), N::length_max)) << object;
+        EXPECT_FALSE(blocked<N>(ray<N>({3, 0, 6}, {0, 0, -1}), N::length_max)) << object;
     }
 }
 
@@ -173,7 +176,7 @@ TYPED_TEST(TraceTest, PanesGiveTwoGeometricSeriesOnABoundedStack)
                               settings));
         const double m = 0.75, hits = (1 - std::pow(m, depth)) / (1 - m), through = 1 - std::pow(m, depth - 1);
         RayCount count;
-        const Vec3 light = light_at<N, glass()>(0, 0, &count);
+        const Vec3 light = light_at<N>(0, 0, &count);
         expect_light(light, {0.125 * hits + 0.5 * through, 0.125 * hits + 0.25 * through, through},
                      4 * light_tolerance<N>());
         EXPECT_EQ(count[RayKind::mirrored], depth - 1);
@@ -194,7 +197,7 @@ TYPED_TEST(TraceTest, WeightBelowTheCutoffIsNotTraced)
                               "ambientlight 0 0 0\n material mirror 0 transmit 0.25 ior 1\n disc 0 0 0 0 0 1 9\n",
                               settings));
         const double expected = cutoff <= 0.25 ? 0.25 : 0;
-        expect_light(light_at<N, glass()>(0, 0), {expected, expected, expected}, light_tolerance<N>());
+        expect_light(light_at<N>(0, 0), {expected, expected, expected}, light_tolerance<N>());
     }
 }
 
@@ -213,7 +216,7 @@ TYPED_TEST(TraceTest, EveryRayOfABinaryTreeIsTraced)
     ASSERT_TRUE(loaded<N>(text, settings));
     RayCount count;
     // 63 hits: those of depth d have the weight 2^(1 - d), 2^(d - 1) of them: 6 / 32.
-    expect_light(light_at<N, glass()>(0, 0, &count), {0.1875, 0.1875, 0.1875}, 2 * light_tolerance<N>());
+    expect_light(light_at<N>(0, 0, &count), {0.1875, 0.1875, 0.1875}, 2 * light_tolerance<N>());
     EXPECT_EQ(count[RayKind::mirrored], 31u);
     EXPECT_EQ(count[RayKind::refracted], 31u);
 }
@@ -226,11 +229,11 @@ TYPED_TEST(TraceTest, ShadowRaysAreAskedForOnlyWhereLightCanArrive)
         loaded<N>("v from 0 0 4 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 1 1\n l 1 0 3\n l 0 1 2\n l 0 0 -2\n"
                   "material diffuse 1\n disc 0 0 0 0 0 1 9"));
     RayCount count;
-    (void)light_at<N, see_through()>(0, 0, &count);
+    (void)light_at<N>(0, 0, &count);
     EXPECT_EQ(count[RayKind::shadow], 2u);
     ASSERT_TRUE(loaded<N>("v from 0 0 4 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 1 1\n l 1 0 3\n"
                           "material diffuse 0\n disc 0 0 0 0 0 1 9"));
-    (void)light_at<N, see_through()>(0, 0, &count);
+    (void)light_at<N>(0, 0, &count);
     EXPECT_EQ(count[RayKind::shadow], 0u);
 }
 

@@ -1,0 +1,3 @@
+// What tracer.hpp declares of boards' scenes, for all sanitized tests.
+#define QRAY_FLAT
+#include "tracer.hpp"
