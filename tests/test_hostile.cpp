@@ -2,6 +2,7 @@
 // `make soak` for a hundred million.
 #include "hostile/run.hpp"
 #include "number_helpers.hpp"
+#include "tracer.hpp"
 
 namespace {
 

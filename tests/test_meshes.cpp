@@ -3,6 +3,7 @@
 // has one owner, or these parities would be wrong. With and without the tree.
 #include "hostile/mesh.hpp"
 #include "number_helpers.hpp"
+#include "tracer.hpp"
 
 namespace {
 
