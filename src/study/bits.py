@@ -173,8 +173,9 @@ def sentences(b, cost):
         f"For {TARGET} dB, {named(most)} bits behind the point (median of {len(b.found)} scenes), {named(least)}, and "
         f"half of all steps at most {middle}: one width for all is too narrow for the first or wasted on the last.",
         f"Where a step moves edges, a bit halves the pixels that show something else, which is "
-        f"{gain(first, 8, 16):.1f} dB ({b.what[first]}, from 8 to 16 bits); where it only shades, a bit is worth {gain('colour', 4, 8):.1f} dB "
-        "(colours, from 4 to 8) until the picture's own 8 bits hide it: accuracy wants bits of directions and lengths.",
+        f"{gain(first, 8, 16):.1f} dB ({b.what[first]}, from 8 to 16 bits); where it only shades, a bit is worth "
+        f"{gain('colour', 4, 8):.1f} dB (colours, from 4 to 8) until the picture's own 8 bits hide it: "
+        "accuracy wants bits of directions and lengths.",
         f"The bits of `{wide}` cost {times[0]:.1f} times the instructions of `{narrow}` on the {BOARDS[board]}, which "
         f"multiplies to 32 bits alone, but {times[1]:.1f} times on the {BOARDS[COSTS[1]]} (a call of each step); "
         f"dearest on the {BOARDS[board]} are {dear}.",
