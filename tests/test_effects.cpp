@@ -140,21 +140,21 @@ template <class N>
 Box<N> box_of(const Asked&, const Corners<N>&);
 
 struct Whole : Asked {
-    static constexpr bool has_corners = false, is_curved = false, is_smooth = false, is_short = false;
+    static constexpr bool has_corners = false, keeps_local = false, is_smooth = false, is_short = false;
 };
 static_assert(ShapeIn<Whole, q16> && ShapeIn<Whole, q32> && ShapeIn<Whole, Float> && ShapeIn<Whole, Double>);
 
 struct NoCorners : Asked {
-    static constexpr bool is_curved = false, is_smooth = false, is_short = false;
+    static constexpr bool keeps_local = false, is_smooth = false, is_short = false;
 };
 struct NoCurved : Asked {
     static constexpr bool has_corners = false, is_smooth = false, is_short = false;
 };
 struct NoSmooth : Asked {
-    static constexpr bool has_corners = false, is_curved = false, is_short = false;
+    static constexpr bool has_corners = false, keeps_local = false, is_short = false;
 };
 struct NoShort : Asked {
-    static constexpr bool has_corners = false, is_curved = false, is_smooth = false;
+    static constexpr bool has_corners = false, keeps_local = false, is_smooth = false;
 };
 static_assert(!ShapeIn<NoCorners, q32> && !ShapeIn<NoCurved, q32> && !ShapeIn<NoSmooth, q32> && !ShapeIn<NoShort, q32>);
 
@@ -176,11 +176,11 @@ static_assert(!ShapeIn<NoIntersect, q32> && !ShapeIn<NoCrossings, q32>);
 static_assert(!ShapeIn<NoSurface, q32> && !ShapeIn<NoReject, q32>);
 
 struct Smooth : Asked {
-    static constexpr bool has_corners = false, is_curved = false, is_smooth = true, is_short = false;
+    static constexpr bool has_corners = false, keeps_local = false, is_smooth = true, is_short = false;
 };
 static_assert(!ShapeIn<Smooth, q32>); // without a shading_normal()
 struct Cornered : Asked {
-    static constexpr bool has_corners = true, is_curved = false, is_smooth = false, is_short = false;
+    static constexpr bool has_corners = true, keeps_local = false, is_smooth = false, is_short = false;
 };
 static_assert(!ShapeIn<Cornered, q32>); // without a normal_of()
 

@@ -76,8 +76,8 @@ QRAY_NOINLINE constexpr const TreeEntry<N>* next_leaf(const ProjectedRay& ray, c
     return leaf_along<&Entry::z, &Entry::x, &Entry::y, &Entry::half_z, &Entry::half_x, &Entry::half_y>(ray, e);
 }
 
-// Calls visit(kind, index) for every shape that the ray may meet before limit(), until it returns true. limit() is asked
-// again at every leaf.
+// Calls visit(kind, first, count) for the shapes that the ray may meet before limit(), until it returns true. limit() is
+// asked again at every leaf.
 template <class N, class Limit, class Visit>
 QRAY_INLINE constexpr void walk(const TreeEntry<N>* e, ProjectedRay& ray, Limit limit, Visit visit)
 {
@@ -94,9 +94,8 @@ QRAY_INLINE constexpr void walk(const TreeEntry<N>* e, ProjectedRay& ray, Limit 
             return;
         const int32_t along = ray.axis == 0 ? e->half_x : ray.axis == 1 ? e->half_y : e->half_z;
         ray.within = 2 * (along + e->half_x + e->half_y + e->half_z);
-        for (uint32_t i = e->first(), end = i + e->count(); i < end; i++)
-            if (visit(e->kind(), i))
-                return;
+        if (visit(e->kind(), e->first(), e->count()))
+            return;
     }
 }
 

@@ -21,7 +21,7 @@ namespace qray {
 
 template <class N>
 struct Cone {
-    static constexpr bool has_corners = false, is_curved = true, is_smooth = false, is_short = false;
+    static constexpr bool has_corners = false, keeps_local = true, is_smooth = false, is_short = false;
 
     Point<N> middle;            // of the axis
     Direction<N> e1, e2, axis;  // orthonormal; the axis points to the end b

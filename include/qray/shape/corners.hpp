@@ -83,11 +83,11 @@ struct Shear {
             return (*this)(v);
         }
     }
-    // The sign of the exact edge(a, b).
-    QRAY_NOINLINE constexpr int edge_sign(const Point<N>& a, const Point<N>& b) const
+    // The sign of the exact edge(a - o, b - o).
+    QRAY_NOINLINE constexpr int edge_sign(const Point<N>& a, const Point<N>& b, const Point<N>& o) const
         requires is_wide_fixed
     {
-        const Moments m = exact(a), n = exact(b);
+        const Moments m = exact(a - o), n = exact(b - o);
         return compare_products(m.x.raw, n.y.raw, n.x.raw, m.y.raw);
     }
 
@@ -183,7 +183,7 @@ QRAY_NOINLINE constexpr bool encloses(const Figure<Point<N>>& figure, const Ray<
         const Sheared<N> b = shear.below(*to - ray.origin);
         const auto sign = [&] {
             if constexpr (Shear<N>::is_wide_fixed)
-                return shear.edge_sign(*from - ray.origin, *to - ray.origin);
+                return shear.edge_sign(*from, *to, ray.origin);
         };
         inside = inside != crosses<N>(a, b, sign);
         if (--left == 0)
@@ -240,13 +240,25 @@ QRAY_NOINLINE constexpr bool encloses(const S& s, const Point<N>* points, const 
     return encloses(s.figure(points), ray);
 }
 
-// t in (0, limit], or false; also where that is a crossing at the light that stands at `limit`. Enclosed: the ray is known
-// to pass inside. The steps are functions, so that they take the same stack in turn.
-template <bool Enclosed, HasCorners S, class N>
-QRAY_NOINLINE constexpr bool meets(const S& s, const Point<N>* points, const Ray<N>& ray, typename N::Length limit,
-                                   typename N::Length& t, bool to_light)
+template <HasCorners S, class D>
+QRAY_INLINE constexpr const D& known_normal(const S&, const D& normal)
 {
-    const auto& normal = normal_of(s, Corners<N>{points, nullptr});
+    return normal;
+}
+template <HasCorners S>
+QRAY_INLINE constexpr const auto& known_normal(const S& s)
+{
+    return s.normal;
+}
+
+// t in (0, limit], or false; also where that is a crossing at the light that stands at `limit`. Enclosed: the ray is known
+// to pass inside. `own`: the normal, where the shape does not have it. The steps are functions, so that they take the same
+// stack in turn.
+template <bool Enclosed, HasCorners S, class N, class... Own>
+QRAY_NOINLINE constexpr bool meets(const S& s, const Point<N>* points, const Ray<N>& ray, typename N::Length limit,
+                                   typename N::Length& t, bool to_light, const Own&... own)
+{
+    const Direction<N>& normal = known_normal(s, own...);
     if (!meets_plane<N>(normal, *s.figure(points).first, ray, limit, t))
         return false;
     if constexpr (!Enclosed)
@@ -258,21 +270,29 @@ QRAY_NOINLINE constexpr bool meets(const S& s, const Point<N>* points, const Ray
     return !to_light || before_light<N>(normal, ray, t, limit);
 }
 
-// The figure that the ray starts on does not count.
+// The figure that the ray starts on does not count. What a lean one's normal costs is kept in `local`.
 template <HasCorners S, class N, class C>
 QRAY_INLINE constexpr bool meets(const S& s, const C& corners, const Ray<N>& ray, typename N::Length limit,
-                                 typename N::Length& t, bool to_light)
+                                 typename N::Length& t, bool to_light, Local<N>& local)
 {
     constexpr bool outline_first = S::is_lean || C::outline_first;
-    return !(ray.from == tag_of(s)) && (!outline_first || encloses(s, corners.points, ray))
-        && meets<outline_first || C::enclose>(s, corners.points, ray, limit, t, to_light);
+    if (ray.from == tag_of(s) || (outline_first && !encloses(s, corners.points, ray)))
+        return false;
+    if constexpr (S::is_lean) {
+        const Direction<N> normal = normal_of(s, corners);
+        if constexpr (S::keeps_local)
+            local.near = {{normal.x.raw}, {normal.y.raw}, {normal.z.raw}};
+        return meets<true>(s, corners.points, ray, limit, t, to_light, normal);
+    } else {
+        return meets<outline_first || C::enclose>(s, corners.points, ray, limit, t, to_light);
+    }
 }
 
 template <bool Near = false, HasCorners S, class N, class C>
 QRAY_INLINE constexpr bool intersect(const S& s, const C& corners, const Ray<N>& ray, typename N::Length limit,
-                                     typename N::Length& t, Local<N>&)
+                                     typename N::Length& t, Local<N>& local)
 {
-    return meets(s, corners, ray, limit, t, false);
+    return meets(s, corners, ray, limit, t, false, local);
 }
 
 // How often the ray crosses it strictly between its origin and a light at `distance`: 0 or 1.
@@ -280,27 +300,43 @@ template <bool Near = false, HasCorners S, class N, class C>
 QRAY_INLINE constexpr int crossings(const S& s, const C& corners, const Ray<N>& ray, typename N::Length distance)
 {
     typename N::Length t{};
-    return meets(s, corners, ray, distance, t, true);
+    Local<N> local{};
+    return meets(s, corners, ray, distance, t, true, local);
 }
 
 template <HasCorners S, class N>
 QRAY_INLINE constexpr void surface_of(const S& s, const Corners<N>& corners, const Ray<N>& ray, typename N::Length t,
-                                      const Local<N>&, Point<N>& point, Direction<N>& n)
+                                      [[maybe_unused]] const Local<N>& local, Point<N>& point, Direction<N>& n)
 {
-    n = normal_of(s, corners);
+    if constexpr (S::keeps_local)
+        n = {{local.near.x.raw}, {local.near.y.raw}, {local.near.z.raw}};
+    else
+        n = normal_of(s, corners);
     const Point<N> hit = S::is_smooth ? ray.origin + along<N>(t, ray.direction) : in_world(ray, t);
     point = on_plane<N>(*s.figure(corners.points).first, n, hit);
 }
 
 // The barycentric weights of where the ray passes a triangle with these corners, or false. By itself, so that its stack
 // is free again where the blend is made unit.
-template <class N>
-QRAY_NOINLINE constexpr bool corner_weights(const Figure<Point<N>>& figure, const Ray<N>& ray, typename N::Unit (&w)[3])
+template <class N, HasCorners S>
+QRAY_NOINLINE constexpr bool corner_weights(const S& s, const Point<N>* points, const Ray<N>& ray, typename N::Unit (&w)[3])
 {
+    const Figure<Point<N>> figure = s.figure(points);
     const Shear<N> shear(ray.direction);
     const Sheared<N> a = shear(*figure.first - ray.origin), b = shear(*figure.second - ray.origin),
                      c = shear(*figure.others - ray.origin);
     return N::weights(edge<N>(b, c), edge<N>(c, a), edge<N>(a, b), w[0], w[1], w[2]);
+}
+
+// The blend of three normals by weights, made unit; false where that vanishes.
+template <class N, HasCorners S>
+QRAY_NOINLINE constexpr bool blended(const S& s, const Direction<N>* normals, const typename N::Unit (&w)[3], Direction<N>& n)
+{
+    const auto [a, b, c, count] = s.figure(normals);
+    using Blend = Vec<typename N::Cosine>;
+    return normalise_short<N>(Blend{w[0] * a->x + w[1] * b->x + w[2] * c->x, w[0] * a->y + w[1] * b->y + w[2] * c->y,
+                                    w[0] * a->z + w[1] * b->z + w[2] * c->z},
+                              n);
 }
 
 // The blend of a triangle's corner normals where the ray meets it; g where that vanishes.
@@ -311,13 +347,8 @@ QRAY_NOINLINE constexpr Direction<N> shading_normal(const S& s, const Corners<N>
 {
     typename N::Unit w[3]{};
     Direction<N> n = g;
-    if (corner_weights(s.figure(corners.points), ray, w)) {
-        const auto [a, b, c, count] = s.figure(corners.normals);
-        using Blend = Vec<typename N::Cosine>;
-        normalise_short<N>(Blend{w[0] * a->x + w[1] * b->x + w[2] * c->x, w[0] * a->y + w[1] * b->y + w[2] * c->y,
-                                 w[0] * a->z + w[1] * b->z + w[2] * c->z},
-                           n);
-    }
+    if (corner_weights<N>(s, corners.points, ray, w))
+        blended<N>(s, corners.normals, w, n);
     return n;
 }
 

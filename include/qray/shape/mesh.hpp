@@ -23,7 +23,7 @@ struct MeshCorners {
 
 template <class N, bool Smooth>
 struct MeshTriangle {
-    static constexpr bool has_corners = true, is_curved = false, is_smooth = Smooth, is_short = false, is_lean = true;
+    static constexpr bool has_corners = true, keeps_local = N::is_fixed, is_smooth = Smooth, is_short = false, is_lean = true;
 
     MeshCorners corners; // in the scene's vertices; of a smooth one also corner normals
     uint16_t place;      // of its tag, as is the material
@@ -60,18 +60,17 @@ constexpr bool normal_across(const Point<N>& a, const Point<N>& b, const Point<N
 template <class N>
 QRAY_NOINLINE constexpr Direction<N> normal_of(const MeshCorners& at, const LeanNormal<N>& lean, const Point<N>* points)
 {
-    if constexpr (N::is_fixed) {
-        Direction<N> n{};
-        normal_across<N>(points[at.a], points[at.b], points[at.c], n);
-        return {{n.x.raw + lean.x}, {n.y.raw + lean.y}, {n.z.raw + lean.z}};
-    } else {
-        return {lean.x, lean.y, lean.z};
-    }
+    Direction<N> n{};
+    normal_across<N>(points[at.a], points[at.b], points[at.c], n);
+    return {{n.x.raw + lean.x}, {n.y.raw + lean.y}, {n.z.raw + lean.z}};
 }
 template <class N, bool Smooth>
 QRAY_INLINE constexpr Direction<N> normal_of(const MeshTriangle<N, Smooth>& s, const Corners<N>& corners)
 {
-    return normal_of<N>(s.corners, s.normal, corners.points);
+    if constexpr (N::is_fixed)
+        return normal_of<N>(s.corners, s.normal, corners.points);
+    else
+        return {s.normal.x, s.normal.y, s.normal.z};
 }
 
 } // namespace qray

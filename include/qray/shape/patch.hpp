@@ -7,7 +7,7 @@ namespace qray {
 
 template <class N>
 struct Patch {
-    static constexpr bool has_corners = true, is_curved = false, is_smooth = true, is_short = false, is_lean = false;
+    static constexpr bool has_corners = true, keeps_local = false, is_smooth = true, is_short = false, is_lean = false;
 
     Direction<N> normal;      // g of the triangle, unit
     Point<N> middle;          // of a ball that holds the triangle

@@ -52,6 +52,13 @@ public:
         }
     }
 
+    // The same out of line, which takes less stack.
+    template <class N>
+    QRAY_NOINLINE static constexpr ProjectedRay of(const Ray<N>& ray)
+    {
+        return ProjectedRay(ray);
+    }
+
     // From now on it ends at the distance `limit`.
     template <class N>
     QRAY_INLINE constexpr void end_at(typename N::Length limit)

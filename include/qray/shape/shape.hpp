@@ -1,6 +1,6 @@
 // What every shape says of itself and is asked. A shape is a structure with these constants, which are told and not guessed
 //   has_corners   it is made of points in the scene's vertices
-//   is_curved     what an intersection finds beside t is kept for the surface (Local)
+//   keeps_local   what an intersection finds beside t is kept for the surface (Local)
 //   is_smooth     it has shading normals of its own: shading_normal()
 //   is_short      its test is so short that where code is cheap a loop over them is unrolled
 // and these functions, found by its type:
@@ -108,7 +108,7 @@ template <class S, class N>
 concept ShapeIn = requires(const S& shape, const Corners<N>& corners, const Ray<N>& ray, const RejectRay<N>& reject,
                            typename N::Length t, Local<N> local, Point<N> point, Direction<N> normal,
                            const Motion<N>& motion, S& moved, const MovedCorners<N>& moved_corners) {
-    requires Is<decltype(S::has_corners), const bool> && Is<decltype(S::is_curved), const bool>;
+    requires Is<decltype(S::has_corners), const bool> && Is<decltype(S::keeps_local), const bool>;
     requires Is<decltype(S::is_smooth), const bool> && Is<decltype(S::is_short), const bool>;
     { tag_of(shape) } -> Is<Tag>;
     { surely_missed(shape, reject) } -> Is<bool>;

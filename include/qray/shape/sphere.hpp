@@ -12,7 +12,7 @@ namespace qray {
 
 template <class N>
 struct Sphere {
-    static constexpr bool has_corners = false, is_curved = true, is_smooth = false, is_short = true;
+    static constexpr bool has_corners = false, keeps_local = true, is_smooth = false, is_short = true;
 
     Point<N> centre;
     typename N::Length radius;        // > 0, times 2^fine

@@ -52,6 +52,23 @@ QRAY_INLINE constexpr bool with_shape(const Scene<N, E>& scene, Kind kind, uint3
     return false;
 }
 
+// Calls f(shape, kind, index), which returns a bool, for `count` shapes of that kind until it returns true; does it?
+template <class N, Effects E, class F>
+QRAY_INLINE constexpr bool any_shape(const Scene<N, E>& scene, Kind kind, uint32_t first, uint32_t count, F f)
+{
+#define QRAY_ASK(Type, name, table) \
+    if constexpr (E.name) \
+        if (last_kind<E>() == Kind::name || kind == Kind::name) { \
+            for (uint32_t i = first; i != first + count; i++) \
+                if (f(scene.table.at(i), Kind::name, i)) \
+                    return true; \
+            return false; \
+        }
+    QRAY_SHAPES(QRAY_ASK)
+#undef QRAY_ASK
+    return false;
+}
+
 // The corners of those shapes that for_each_candidate() names.
 template <class N, Effects E>
 QRAY_INLINE constexpr auto candidates_corners(const Scene<N, E>& scene)
@@ -82,9 +99,10 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
         });
     } else if constexpr (E.flat_tree) {
         const RejectRay<N> reject(ray);
-        ProjectedRay projected(ray);
-        walk(scene.entries.data, projected, limit, [&](Kind of_leaf, uint32_t place) __attribute__((always_inline)) {
-            return with_shape(scene, of_leaf, place, [&]<class S>(const S& shape, Kind kind, uint32_t index) __attribute__((always_inline)) {
+        constexpr bool deep = E.triangle || E.smooth_triangle; // keep a normal
+        ProjectedRay projected = deep ? ProjectedRay::of(ray) : ProjectedRay(ray);
+        walk(scene.entries.data, projected, limit, [&](Kind of_leaf, uint32_t first, uint32_t count) __attribute__((always_inline)) {
+            return any_shape(scene, of_leaf, first, count, [&]<class S>(const S& shape, Kind kind, uint32_t index) __attribute__((always_inline)) {
                 bool missed;
                 if constexpr (S::has_corners)
                     missed = surely_missed(shape, corners_of(scene), projected);
@@ -171,7 +189,7 @@ QRAY_INLINE constexpr void keep_nearest(const Scene<N, E>& scene, const Ray<N>& 
         hit.tag = tag_of(shape);
         hit.kind = kind;
         hit.index = index;
-        if constexpr (S::is_curved)
+        if constexpr (S::keeps_local)
             hit.local = local;
     }
 }

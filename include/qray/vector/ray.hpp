@@ -49,7 +49,7 @@ QRAY_INLINE constexpr Leaves leaves(const Ray<N>& ray, Tag tag)
 }
 
 // Where a ray meets a curved surface, seen from the surface's centre: the ray's point nearest to that, and how far
-// along the ray the hit is from there. In the surface's own block scale.
+// along the ray the hit is from there. In the surface's own block scale. Of a lean triangle, `near` is the normal.
 template <class N>
 struct Local {
     Point<N> near;

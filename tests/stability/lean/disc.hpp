@@ -10,7 +10,7 @@ namespace qray {
 
 template <class N>
 struct Disc {
-    static constexpr bool has_corners = false, is_curved = false, is_smooth = false, is_short = false;
+    static constexpr bool has_corners = false, keeps_local = false, is_smooth = false, is_short = false;
 
     Point<N> centre;
     Direction<N> normal;

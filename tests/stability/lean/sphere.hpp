@@ -21,7 +21,7 @@ inline constexpr typename N::Length lean_threshold = [] {
 
 template <class N>
 struct Sphere {
-    static constexpr bool has_corners = false, is_curved = true, is_smooth = false, is_short = true;
+    static constexpr bool has_corners = false, keeps_local = true, is_smooth = false, is_short = true;
 
     Point<N> centre;
     typename N::Length radius, reach; // the latter for the reject
