@@ -242,4 +242,27 @@ TYPED_TEST(PolygonTest, CrossingsAreCountedBeforeTheLight)
     EXPECT_EQ(s.crossings(down<N>(0.5, 0.5), limit), 0);
 }
 
+// Of several shapes the nearest is found in any order only if a hit depends on the limit by no more than this. A triangle
+// seen flat, whose plane is met behind it, is met in its farthest corner: it may be before a limit that the plane is behind.
+TYPED_TEST(PolygonTest, AHitIsTheSameForEveryLimitBehindIt)
+{
+    QRAY_SHAPE_TEST;
+    Random random(77);
+    int hits = 0;
+    for (int i = 0; i < 20000; i++) {
+        const Vec3 a = random.point(20), along = random.direction(), aside = random.direction();
+        const double size = random.uniform(0.05, 0.5);
+        const PolygonOf<N> s({a, a + (along + aside) * size, a + (along - aside) * size});
+        const Vec3 flat = along + cross(along, aside) * random.uniform(-0.3, 0.3);
+        const auto ray = M::ray(a + along * (size * random.uniform(0.9, 1)) - flat * random.uniform(2, 40), flat);
+        if (!s.hit(ray, limit, t))
+            continue;
+        hits++;
+        typename N::Length again{};
+        ASSERT_TRUE(s.hit(ray, t, again)) << i << " " << value(t);
+        ASSERT_EQ(value(again), value(t)) << i;
+    }
+    EXPECT_GT(hits, 1000);
+}
+
 } // namespace

@@ -259,7 +259,10 @@ QRAY_NOINLINE constexpr bool meets(const S& s, const Point<N>* points, const Ray
                                    typename N::Length& t, bool to_light, const Own&... own)
 {
     const Direction<N>& normal = known_normal(s, own...);
-    if (!meets_plane<N>(normal, *s.figure(points).first, ray, limit, t))
+    auto end = limit;
+    if constexpr (NarrowFixed<N>) // so far behind the corners the plane may be, to whose distances t is put back below
+        end.raw += hit_slack<N> << (N::Length::frac - 9);
+    if (!meets_plane<N>(normal, *s.figure(points).first, ray, end, t))
         return false;
     if constexpr (!Enclosed)
         if (!encloses(s.figure(points), ray))
