@@ -423,7 +423,7 @@ function show_frontier() {
         + (c.cycles === 1 ? 'a cycle an instruction' : `${c.cycles.toFixed(2)} cycles an instruction in q32, as the study models this core`)
         + ', and memory that never waits.'
         + ` Accuracy is measured on the same pixels against double with ${truth.samples} samples and depth ${truth.depth}.`;
-    $('plot').replaceChildren(points.length < 2 ? element('p', {className: 'hint', textContent: 'measuring …'}) : plot(points),
+    $('plot').replaceChildren(points.length < 2 ? element('p', {className: 'hint', textContent: 'Points appear when both pictures are drawn.'}) : plot(points),
                               element('p', {className: 'key'}, ...[...new Set(points.map(p => p.settings.number))].map(number =>
         element('span', {textContent: number, style: `--number: var(--${number}, var(--other))`}))));
     $('points').replaceChildren(...points.filter(p => p.best).map(p => element('li', {}, element('button', {
@@ -550,7 +550,9 @@ function draw_all() {
     compared = chosen_pixel = null;
     survey_key = null;
     surveyor.stop();
+    found = [];
     show_chosen(null);
+    show_frontier();
     sides.forEach(side => side.draw());
 }
 function show_all() {
@@ -565,6 +567,8 @@ let typing = 0;
 function set_text(text, pause) {
     shown.text = text;
     state('drawing');
+    for (const tracer of [judge, surveyor, ...sides.map(side => side.tracer)])
+        tracer.stop();
     clearTimeout(typing);
     typing = setTimeout(draw_all, pause);
 }
