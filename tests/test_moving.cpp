@@ -45,7 +45,8 @@ scene::Settings moving()
 
 std::string scene_text(const std::string& view, const std::string& objects, const std::string& lights = "")
 {
-    return "v\n" + view + "\nangle 40\nhither 0\nresolution 16 12\nl 1 2 3\n" + lights + "\nf 1 1 1 1 0 0 0 1\n" + objects
+    return "v\n" + view + "\nangle 40\nhither 0\nresolution 16 12\nl 1 2 3\n" + lights + "\nf 1 1 1 1 0 0 0 1\n"
+        + objects
         + "\n";
 }
 const char* const any_view = "from 0 0 9\nat 0 0 0\nup 0 1 0";
@@ -81,7 +82,8 @@ TYPED_TEST(MovingTest, FrameIsTheBuilders)
     const Point<N> centre = s.frame.point(place_of<N>(8, 16, -24));
     EXPECT_EQ(centre, s.spheres.data[0].centre);
     expect_near(value(s.frame.place(centre)), {1, 2, -3}, N::is_fixed ? 1.0 / 65536 : 1e-6);
-    EXPECT_EQ(value(s.frame.length(coordinate<N>(5, 4))), std::ldexp(value(s.spheres.data[0].radius), -s.spheres.data[0].fine));
+    EXPECT_EQ(value(s.frame.length(coordinate<N>(5, 4))), std::ldexp(value(s.spheres.data[0].radius),
+                                                                          -s.spheres.data[0].fine));
     if constexpr (N::is_fixed) { // clamped, and so out of the world
         const Coordinate<N> most{INT32_MAX}, least{INT32_MIN};
         EXPECT_FALSE(ball_in_world<N>(s.frame.point({most, least, most}), N::length_zero));
@@ -100,7 +102,8 @@ double off(const Camera<N>& a, const Camera<N>& b)
 {
     // The pencils as the samples at the picture's edges add them up, to the largest of these as 1.
     const double half = std::tan(20 * M_PI / 180);
-    const double most = N::is_fixed ? std::ldexp(1, NarrowFixed<N> ? 29 : 60) : std::fmax(1, half * std::fmax(1, double(a.width) / a.height));
+    const double most = N::is_fixed ? std::ldexp(1, NarrowFixed<N> ? 29 : 60)
+        : std::fmax(1, half * std::fmax(1, double(a.width) / a.height));
     const auto real_of = [most](const Pencil<N>& p, int k) {
         return Vec3{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)} * (k / most);
     };
@@ -117,9 +120,11 @@ TYPED_TEST(MovingTest, CamerasAreTheDesktops)
     double worst = 0, worst_angle = 0;
     for (int i = 0; i < 400; i++) {
         const auto coordinate_of = [&] { return static_cast<int>(random.bits() % 145) - 72; };
-        const int e[3] = {coordinate_of(), coordinate_of(), coordinate_of()}, a[3] = {coordinate_of(), coordinate_of(), coordinate_of()},
+        const int e[3] = {coordinate_of(), coordinate_of(), coordinate_of()},
+                  a[3] = {coordinate_of(), coordinate_of(), coordinate_of()},
                   u[3] = {coordinate_of(), coordinate_of(), coordinate_of()};
-        const Vec3 along{double(a[0] - e[0]), double(a[1] - e[1]), double(a[2] - e[2])}, above{double(u[0]), double(u[1]), double(u[2])};
+        const Vec3 along{double(a[0] - e[0]), double(a[1] - e[1]), double(a[2] - e[2])},
+            above{double(u[0]), double(u[1]), double(u[2])};
         const Vec3 across{along.y * above.z - along.z * above.y, along.z * above.x - along.x * above.z,
                           along.x * above.y - along.y * above.x};
         if (!(length(across) > 0.25 * length(along) * length(above)))
@@ -128,10 +133,12 @@ TYPED_TEST(MovingTest, CamerasAreTheDesktops)
         settings.width = 1 + static_cast<uint32_t>(random.bits() % 640);
         settings.height = 1 + static_cast<uint32_t>(random.bits() % 480);
         settings.grid = 1 + static_cast<uint32_t>(random.bits() % 3);
-        const std::string view = "from " + text_of(e[0], e[1], e[2]) + "\nat " + text_of(a[0], a[1], a[2]) + "\nup " + text_of(u[0], u[1], u[2]);
+        const std::string view = "from " + text_of(e[0], e[1], e[2]) + "\nat " + text_of(a[0], a[1], a[2]) + "\nup "
+            + text_of(u[0], u[1], u[2]);
         ASSERT_TRUE(loaded<N>(scene_text(view, "s 0 0 0 1"), settings));
         const auto& s = storage<N>();
-        const View<N> at{place_of<N>(e[0], e[1], e[2]), place_of<N>(a[0], a[1], a[2]), place_of<N>(u[0], u[1], u[2]), s.text_view.field};
+        const View<N> at{place_of<N>(e[0], e[1], e[2]), place_of<N>(a[0], a[1], a[2]), place_of<N>(u[0], u[1], u[2]),
+            s.text_view.field};
         Camera<N> camera = s.camera;
         camera.eye = {};
         camera.centre = camera.right = camera.down = {};
@@ -153,8 +160,9 @@ TYPED_TEST(MovingTest, CamerasAreTheDesktops)
 std::string shapes(int x, int y, int z, int radius)
 {
     const auto at = [&](int dx, int dy, int dz) { return text_of(x + 8 * dx, y + 8 * dy, z + 8 * dz); };
-    return "s " + at(1, 2, -3) + eighths(radius) + "\ndisc " + at(-2, 1, 0) + "0 1 0 1.5\nc " + at(0, 0, 0) + "1 " + at(0, 2, 0)
-        + "0.5\np 4 " + at(0, 0, 0) + at(2, 0, 0) + at(2, 2, 0) + at(0, 2, 0) + "\npp 3 " + at(1, 1, 1) + "0 0 1 " + at(3, 1, 1)
+    return "s " + at(1, 2, -3) + eighths(radius) + "\ndisc " + at(-2, 1, 0) + "0 1 0 1.5\nc " + at(0, 0, 0) + "1 "
+        + at(0, 2, 0) + "0.5\np 4 " + at(0, 0, 0) + at(2, 0, 0) + at(2, 2, 0) + at(0, 2, 0) + "\npp 3 "
+        + at(1, 1, 1) + "0 0 1 " + at(3, 1, 1)
         + "0 1 1 " + at(1, 3, 1) + "1 0 1\n";
 }
 std::string lights(int x, int y, int z)
@@ -289,7 +297,8 @@ TYPED_TEST(MovingTest, TurnsAreTurns)
         const Vec3 axis = random.direction();
         const auto angle = static_cast<uint32_t>(random.bits());
         Motion<N> motion(s.frame);
-        const ScenePoint<N> exact{coordinate<N>(int(axis.x * 3000)), coordinate<N>(int(axis.y * 3000)), coordinate<N>(int(axis.z * 3000))};
+        const ScenePoint<N> exact{coordinate<N>(int(axis.x * 3000)), coordinate<N>(int(axis.y * 3000)),
+            coordinate<N>(int(axis.z * 3000))};
         motion.about(place_of<N>(4, -4, 8)).turn(exact, angle);
         Sphere<N> turned{};
         Cone<N> turned_cone{};
@@ -352,7 +361,8 @@ TYPED_TEST(MovingTest, TreesFollow)
         for (uint32_t i = 0; i < s.patches.count; i += 3)
             ASSERT_TRUE(move(s.patches.data[i], corners, motion, s.patches.data[i], {s.vertices.data, s.normals.data}));
         for (uint32_t i = 0; i < s.polygons.count; i += 3)
-            ASSERT_TRUE(move(s.polygons.data[i], corners, motion, s.polygons.data[i], {s.vertices.data, s.normals.data}));
+            ASSERT_TRUE(move(s.polygons.data[i], corners, motion, s.polygons.data[i],
+                {s.vertices.data, s.normals.data}));
         refit(s.template view<with_tree>(), s.entries.data);
         EXPECT_TRUE((draw<N, with_tree>() == draw<N, without>())) << k;
     }
@@ -394,9 +404,11 @@ TYPED_TEST(MovingTest, HostileMoves)
 {
     using N = TypeParam;
     constexpr Effects effects = flat();
-    ASSERT_TRUE(loaded<N>(scene_text(any_view, shapes(0, 0, 0, 9) + shapes(3, 4, 5, 6) + shapes(-9, -8, 7, 4) + shapes(8, 8, 8, 1) + shapes(-3, 5, 1, 2)
+    ASSERT_TRUE(loaded<N>(scene_text(any_view, shapes(0, 0, 0, 9) + shapes(3, 4, 5, 6) + shapes(-9, -8, 7, 4)
+        + shapes(8, 8, 8, 1) + shapes(-3, 5, 1, 2)
                                      + shapes(2, -9, 0, 3) + shapes(5, 0, -8, 4) + shapes(-5, -5, 8, 3)
-                                     + "plane 0 -2 0 0 1 0\ns 0 0 0 6\ndisc 0 0 0 1 0 0 8\nc -6 0 0 3 6 0 0 3", lights(0, 0, 0)), moving()));
+                                     + "plane 0 -2 0 0 1 0\ns 0 0 0 6\ndisc 0 0 0 1 0 0 8\nc -6 0 0 3 6 0 0 3",
+                                         lights(0, 0, 0)), moving()));
     auto& s = storage<N>();
     ASSERT_GT(s.entries.count, 0u);
     Random random(11);
@@ -426,7 +438,8 @@ TYPED_TEST(MovingTest, HostileMoves)
         if (random.bits() & 1)
             motion.about(somewhere());
         if (random.bits() & 1)
-            motion.turn(somewhere(), static_cast<uint32_t>(random.bits()) & ((random.bits() & 3) == 0 ? 0xc000'0000 : ~0u));
+            motion.turn(somewhere(),
+                        static_cast<uint32_t>(random.bits()) & ((random.bits() & 3) == 0 ? 0xc000'0000 : ~0u));
         if ((random.bits() & 3) == 0)
             motion.scale(part());
         if (random.bits() & 1)
@@ -443,7 +456,8 @@ TYPED_TEST(MovingTest, HostileMoves)
         }
         paint(s.mattes.data[0], somewhere());
         const View<N> view{somewhere(), somewhere(), somewhere(),
-                           random.bits() & 1 ? field<N>(static_cast<uint32_t>(random.bits())) : field_of_tangent<N>(part())};
+                           random.bits() & 1 ? field<N>(static_cast<uint32_t>(random.bits()))
+                               : field_of_tangent<N>(part())};
         looked += look_at(s.camera, s.frame, view);
         refit(s.template view<effects>(), s.entries.data);
         if (i % 8 == 0)

@@ -71,7 +71,8 @@ std::string box(double a, double b)
 std::string square(double x, double y, double z, double half)
 {
     char text[200];
-    std::snprintf(text, sizeof text, "p 4  %g %g %g  %g %g %g  %g %g %g  %g %g %g\n", x - half, y, z - half, x - half, y, z + half,
+    std::snprintf(text, sizeof text, "p 4  %g %g %g  %g %g %g  %g %g %g  %g %g %g\n", x - half, y, z - half, x - half,
+        y, z + half,
                   x + half, y, z + half, x + half, y, z - half);
     return text;
 }
@@ -133,8 +134,8 @@ Rgb<N> light_at(uint32_t place, bool inside, const scene::Frame& frame, const Ve
     return light_of_surfaces(view, make_tag(place, 0), inside, scene::Convert<N>::point(frame.point(p)));
 }
 
-// Beside a lamp, light is as the closed form has it. What is off by more than a 64th gets finer nodes, down to an 8th of a cell;
-// cells hold 255ths of the brightest.
+// Beside a lamp, light is as the closed form has it. What is off by more than a 64th gets finer nodes, down to an 8th
+// of a cell; cells hold 255ths of the brightest.
 TYPED_TEST(LookUp, IsNearTheClosedForm)
 {
     using N = TypeParam;
@@ -152,7 +153,8 @@ TYPED_TEST(LookUp, IsNearTheClosedForm)
             const double exact = square_factor(p.x, p.z, 1, 1.5);
             const auto light = light_at<N>(0, false, builder.frame, p);
             const auto dark = light_at<N>(0, true, builder.frame, p);
-            worst = std::max(worst, std::fabs(std::ldexp(scene::value(std::max(light.x, dark.x)), storage<N>().exposure) - exact));
+            worst = std::max(worst, std::fabs(std::ldexp(scene::value(std::max(light.x, dark.x)), storage<N>().exposure)
+                - exact));
         }
         EXPECT_LT(worst, 1.0 / 64 + 0.004 * edge * edge + 0.004) << edge;
     }
@@ -171,7 +173,8 @@ TYPED_TEST(LookUp, OfAClosedRoomOfOneColour)
         for (uint32_t k = 0; k < 256; k += 7) {
             Rgb<N> c{};
             RayCount count;
-            c = trace(view, eye_ray(view, view.camera.row(static_cast<int>(k / 16 * 2) - 15) + view.camera.right * (static_cast<int>(k % 16 * 2) - 15)), count,
+            c = trace(view, eye_ray(view, view.camera.row(static_cast<int>(k / 16 * 2) - 15)
+                + view.camera.right * (static_cast<int>(k % 16 * 2) - 15)), count,
                       EyeSample{});
             const double bytes = NarrowFixed<N> ? 0.003 : 0.002;
             const auto near = [&](auto got, double colour) {
@@ -197,8 +200,10 @@ TEST(Radiosity, FormFactorsOfUnitSquares)
 TEST(Radiosity, OfAPolygonWithAHole)
 {
     // Joined to its hole by a cut: all of it less the hole.
-    const std::string ring = "p 10  -1 2 -1  -1 2 1  1 2 1  1 2 -1  -1 2 -1  -0.5 2 -0.5  0.5 2 -0.5  0.5 2 0.5  -0.5 2 0.5  -0.5 2 -0.5\n";
-    ASSERT_EQ(error_of(view("0.05") + "material diffuse 1 " + square(0, 0, 0, 0.05) + "material diffuse 0 emission 1 " + ring), "");
+    const std::string ring =
+        "p 10  -1 2 -1  -1 2 1  1 2 1  1 2 -1  -1 2 -1  -0.5 2 -0.5  0.5 2 -0.5  0.5 2 0.5  -0.5 2 0.5  -0.5 2 -0.5\n";
+    ASSERT_EQ(error_of(view("0.05") + "material diffuse 1 " + square(0, 0, 0, 0.05) + "material diffuse 0 emission 1 "
+        + ring), "");
     const double exact = square_factor(0, 0, 1, 2) - square_factor(0, 0, 0.5, 2);
     EXPECT_NEAR(mean_of_cells(0), exact, 0.005 * exact);
     // A plate with a hole, and light beyond it.
@@ -210,13 +215,15 @@ TEST(Radiosity, OfAPolygonWithAHole)
 
 TEST(Radiosity, GlassLetsItsShareThrough)
 {
-    const std::string ends = view("0.5") + "material diffuse 1 " + square(0, 0, 0, 1) + "material diffuse 0 emission 1 " + square(0, 2, 0, 1);
+    const std::string ends = view("0.5") + "material diffuse 1 " + square(0, 0, 0, 1) + "material diffuse 0 emission 1 "
+        + square(0, 2, 0, 1);
     ASSERT_EQ(error_of(ends), "");
     const double open = mean_of_cells(0);
     ASSERT_EQ(error_of(ends + "material diffuse 0 transmit 0.75 " + square(0, 1, 0, 4) + square(0, 1.1, 0, 4)), "");
     EXPECT_NEAR(mean_of_cells(0), open * 0.75 * 0.75, 1e-6);
     // And of the sky as much, by rays.
-    ASSERT_EQ(error_of(view("100") + "b 1 0.5 0.25 material diffuse 1 " + square(0, 0, 0, 1) + "material diffuse 0 transmit 0.5 "
+    ASSERT_EQ(error_of(view("100") + "b 1 0.5 0.25 material diffuse 1 " + square(0, 0, 0, 1)
+        + "material diffuse 0 transmit 0.5 "
                        + square(0, 0.1, 0, 400)),
               "");
     EXPECT_NEAR(mean_of_cells(0), 1, 1e-6);              // below
@@ -229,8 +236,10 @@ TEST(Radiosity, NoLightLeaksThroughWalls)
     for (int i = 0; i < 3; i++) {
         const double x = 0.37 * i - 0.4, turn = 0.4 * i, top = turn / 2;
         char wall[300], roof[200];
-        std::snprintf(wall, sizeof wall, "p 4  %g -1 -1  %g -1 1  %g 1 1  %g 1 -1\n", x - top, x + top, x + top, x - top);
-        std::snprintf(roof, sizeof roof, "material diffuse 0 emission 1 p 4  -1 0.9 -1  -1 0.9 1  %g 0.9 1  %g 0.9 -1\n", x + top, x - top);
+        std::snprintf(wall, sizeof wall, "p 4  %g -1 -1  %g -1 1  %g 1 1  %g 1 -1\n", x - top, x + top, x + top,
+                      x - top);
+        std::snprintf(roof, sizeof roof,
+            "material diffuse 0 emission 1 p 4  -1 0.9 -1  -1 0.9 1  %g 0.9 1  %g 0.9 -1\n", x + top, x - top);
         ASSERT_EQ(error_of(view("0.5") + "material diffuse 0.9 colour 0.9 0.9 0.9 " + box(-1, 1) + wall + roof), "");
         build<q32>();
         const scene::Frame& frame = [] {
@@ -259,7 +268,8 @@ TEST(Radiosity, NoLightLeaksThroughWalls)
 // What walls take is what the lamp gives, and nowhere is more than that.
 TEST(Radiosity, EnergyNeverGrows)
 {
-    ASSERT_EQ(error_of(view("0.25") + "material colour 0.7 0.7 0.7 diffuse 1 " + box(-1, 1) + "material diffuse 0 emission 1 "
+    ASSERT_EQ(error_of(view("0.25") + "material colour 0.7 0.7 0.7 diffuse 1 " + box(-1, 1)
+        + "material diffuse 0 emission 1 "
                        + square(0, 0.5, 0, 0.5)),
               "");
     double taken = 0;
@@ -278,22 +288,28 @@ TEST(Radiosity, EnergyNeverGrows)
 TEST(Radiosity, OfLampsAndOfWhatTakesNoPart)
 {
     // A lit floor, seen by a wall on it: half of its half sphere but for the end.
-    const std::string scene = "v from 0 1 5 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 8 8 ambientlight 0 0 0 radiosity 5 far 900\n";
-    ASSERT_EQ(error_of(scene + "sun 0 1 0  1 1 1 material diffuse 0.5 p 4  -900 0 -900  -900 0 900  900 0 900  900 0 -900\n"
-                       "material diffuse 1 p 4 -1 1 0  1 1 0  1 2 0  -1 2 0\n"), "'radiosity 5' needs 259202 cells of light; expected at most 32768 (limit 'cells')");
-    ASSERT_EQ(error_of(scene + "sun 0 1 0  1 1 1 material diffuse 0.5 plane 0 0 0 0 1 0\nmaterial diffuse 1 p 4 -1 1 0  1 1 0  1 2 0  -1 2 0\n"), "");
+    const std::string scene =
+        "v from 0 1 5 at 0 0 0 up 0 1 0 angle 45 hither 1 resolution 8 8 ambientlight 0 0 0 radiosity 5 far 900\n";
+    ASSERT_EQ(error_of(scene
+                       + "sun 0 1 0  1 1 1 material diffuse 0.5 p 4  -900 0 -900  -900 0 900  900 0 900  900 0 -900\n"
+                       "material diffuse 1 p 4 -1 1 0  1 1 0  1 2 0  -1 2 0\n"),
+              "'radiosity 5' needs 259202 cells of light; expected at most 32768 (limit 'cells')");
+    ASSERT_EQ(error_of(scene + "sun 0 1 0  1 1 1 material diffuse 0.5 plane 0 0 0 0 1 0\n"
+                       "material diffuse 1 p 4 -1 1 0  1 1 0  1 2 0  -1 2 0\n"), "");
     EXPECT_NEAR(mean_of_cells(0), 0.25, 0.005);
     ASSERT_EQ(error_of(scene + "panel 2  0 900 0  1 0 0  0 0 1  1 1 1 material diffuse 0.5 plane 0 0 0 0 1 0\n"
                        "material diffuse 1 p 4 -1 1 0  1 1 0  1 2 0  -1 2 0\n"), "");
     EXPECT_NEAR(mean_of_cells(0), 0.25, 0.005);
     // Around a ball that glows: the share of the sky that it takes.
-    ASSERT_EQ(error_of(scene + "material diffuse 1 p 4 -0.1 0 -0.1  -0.1 0 0.1  0.1 0 0.1  0.1 0 -0.1\nmaterial diffuse 0 emission 1 s 0 2 0 1\n"), "");
+    ASSERT_EQ(error_of(scene + "material diffuse 1 p 4 -0.1 0 -0.1  -0.1 0 0.1  0.1 0 0.1  0.1 0 -0.1\n"
+                       "material diffuse 0 emission 1 s 0 2 0 1\n"), "");
     EXPECT_NEAR(mean_of_cells(0), 0.25, 0.005);
 }
 
 TEST(Radiosity, IsTheSameInAnyOrder)
 {
-    const std::string text = view("0.4") + "b 0.1 0.2 0.3 material colour 0.7 0.6 0.5 diffuse 0.9 " + box(-1, 1) + box(-0.8, 0.1)
+    const std::string text = view("0.4") + "b 0.1 0.2 0.3 material colour 0.7 0.6 0.5 diffuse 0.9 " + box(-1, 1)
+        + box(-0.8, 0.1)
         + "material diffuse 0 emission 9 " + square(0.2, 0.8, 0.1, 0.1);
     ASSERT_EQ(error_of(text), "");
     const std::vector<Vec3d> light(description().light, description().light + description().light_size);
@@ -322,7 +338,8 @@ TEST(Radiosity, OfHostileScenes)
         char eye[40];
         std::snprintf(eye, sizeof eye, " %.17g", off + 3 * size);
         std::string text = "v from" + number() + number() + eye + " at" + point()
-            + " up 1 2 3 angle 60 hither 1 resolution 2 2 b 0.5 0.2 0.1 radiosity " + edge + " l" + point() + " 0.2 0.1 0.3\n";
+            + " up 1 2 3 angle 60 hither 1 resolution 2 2 b 0.5 0.2 0.1 radiosity " + edge + " l" + point()
+            + " 0.2 0.1 0.3\n";
         for (uint64_t k = 1 + random.bits() % 7; k > 0; k--) {
             if (random.bits() % 2 == 0)
                 text += "material colour 0.8 0.6 0.9 diffuse 0.7 emission 0.4 transmit 0.1\n";
@@ -366,8 +383,8 @@ TEST(Radiosity, OfHostileScenes)
 
 TEST(Radiosity, OfARoomThatLosesNoneIsAnError)
 {
-    EXPECT_NE(error_of(view("2") + "material diffuse 1 emission 1 " + box(-1, 1)).find("a room that loses none has no picture"),
-              std::string::npos);
+    const std::string error = error_of(view("2") + "material diffuse 1 emission 1 " + box(-1, 1));
+    EXPECT_NE(error.find("a room that loses none has no picture"), std::string::npos);
 }
 
 } // namespace

@@ -44,9 +44,11 @@ std::string little(uint32_t v)
 {
     return {static_cast<char>(v), static_cast<char>(v >> 8), static_cast<char>(v >> 16), static_cast<char>(v >> 24)};
 }
-std::string bmp(uint32_t width, uint32_t height, const std::string& rows, uint32_t bits = 24, uint32_t method = 0, uint32_t head = 40)
+std::string bmp(uint32_t width, uint32_t height, const std::string& rows, uint32_t bits = 24, uint32_t method = 0,
+    uint32_t head = 40)
 {
-    return "BM" + little(54 + static_cast<uint32_t>(rows.size())) + little(0) + little(54) + little(head) + little(width)
+    return "BM" + little(54 + static_cast<uint32_t>(rows.size())) + little(0) + little(54) + little(head)
+        + little(width)
         + little(height) + little(1 | bits << 16) + little(method) + std::string(20, '\0') + rows;
 }
 
@@ -63,7 +65,8 @@ std::string pixels(const std::string& file)
     scene::Error error;
     EXPECT_TRUE(parsed(view + "texture globe x 0 0 0 s 0 0 0 1", error)) << error.text;
     const scene::ImageSource& image = description().images[0];
-    return {reinterpret_cast<const char*>(description().image_bytes.room.at) + image.first, 3 * size_t{image.width} * image.height};
+    return {reinterpret_cast<const char*>(description().image_bytes.room.at) + image.first,
+        3 * size_t{image.width} * image.height};
 }
 
 TEST(ImageFile, RowsGoFromTheBottomInRedGreenBlue)
@@ -126,7 +129,8 @@ TEST(ImageFile, EveryFaultIsNamedAtTheScenesPlace)
     files.clear();
     scene::Error error;
     EXPECT_FALSE(parsed(view + "texture globe q.ppm 0 0 0", error));
-    EXPECT_STREQ(error.text, "a/b.nff:2:15: cannot read 'q.ppm': No such file or directory; expected an image, BMP or PPM");
+    EXPECT_STREQ(error.text,
+        "a/b.nff:2:15: cannot read 'q.ppm': No such file or directory; expected an image, BMP or PPM");
     files = {{"o", ppm(1, 1, "abc")}};
     EXPECT_FALSE(parsed(view + "texture image o 0 0 0 0 0 0 0 1 0", error));
     EXPECT_STREQ(error.text, "a/b.nff:2:23: u of an image is zero; expected a vector with a direction");
@@ -140,7 +144,8 @@ TEST(ImageFile, IsReadAndKeptOnce)
     reads = 0;
     scene::Error error;
     ASSERT_TRUE(parsed(view + "material texture globe a 0 0 0 s 0 0 0 1 material texture globe c 0 0 0 s 0 0 0 1\n"
-                              "material texture image a 0 0 0 1 0 0 0 1 0 s 0 0 0 1 material texture globe b 0 0 0 s 0 0 0 1",
+                              "material texture image a 0 0 0 1 0 0 0 1 0 s 0 0 0 1 "
+                              "material texture globe b 0 0 0 s 0 0 0 1",
                        error)) << error.text;
     EXPECT_EQ(reads, 3);
     const scene::Description& d = description();
@@ -162,9 +167,11 @@ TEST(ImageFile, LimitsAreNamed)
     scene::Error error;
     EXPECT_FALSE(parsed(text, error));
     EXPECT_STREQ(error.text, "a/b.nff:66:24: too many images; expected at most 64 (limit 'images')");
-    files = {{"x", ppm(4096, 4096, std::string(size_t{3} << 24, 'x'))}, {"y", ppm(4096, 2048, std::string(size_t{3} << 23, 'y'))}};
+    files = {{"x", ppm(4096, 4096, std::string(size_t{3} << 24, 'x'))},
+        {"y", ppm(4096, 2048, std::string(size_t{3} << 23, 'y'))}};
     EXPECT_FALSE(parsed(view + "texture globe x 0 0 0 texture globe y 0 0 0", error));
-    EXPECT_STREQ(error.text, "a/b.nff:2:37: images of 75497472 bytes; expected at most 67108864 of all (limit 'image_bytes')");
+    EXPECT_STREQ(error.text,
+        "a/b.nff:2:37: images of 75497472 bytes; expected at most 67108864 of all (limit 'image_bytes')");
 }
 
 template <class N>
@@ -187,7 +194,8 @@ TYPED_TEST(TexelsTest, AreIndicesOfUpTo256Colours)
     using N = TypeParam;
     for (const int colours : {1, 2, 255, 256, 257, 600}) {
         files = {{"a", ppm(40, 25, numbered(40, 25, colours))}, {"b", ppm(1, 1, "xyz")}};
-        ASSERT_TRUE(loaded<N>(view + "material texture globe b 0 0 0 s 0 0 0 1 material texture globe a 0 0 0 s 0 0 0 1", {}, &beside));
+        ASSERT_TRUE(loaded<N>(view
+            + "material texture globe b 0 0 0 s 0 0 0 1 material texture globe a 0 0 0 s 0 0 0 1", {}, &beside));
         const scene::Storage<N>& s = storage<N>();
         const Texels<N>& texels = s.globes.data[1].texels;
         EXPECT_EQ(texels.colours != nullptr, colours <= 256) << colours;
@@ -198,7 +206,8 @@ TYPED_TEST(TexelsTest, AreIndicesOfUpTo256Colours)
             ASSERT_LE(distance(value(texels.texel(i % 40, i / 40)), expected), make<N>::unit_ulp()) << k;
         }
     }
-    EXPECT_EQ(value(Texels<N>{reinterpret_cast<const uint8_t*>("\xff\0\xff"), nullptr, 1, 1}.at(0, 0)), (Vec3{1, 0, 1}));
+    EXPECT_EQ(value(Texels<N>{reinterpret_cast<const uint8_t*>("\xff\0\xff"), nullptr, 1, 1}.at(0, 0)),
+        (Vec3{1, 0, 1}));
 }
 
 // An image whose texels say where they are.
@@ -233,15 +242,18 @@ TYPED_TEST(TexelsTest, ImageGoesAlongItsEdgesAgainAndAgain)
         const Placing by_u{u_length, random.point(8)}, by_v{v_length, by_u.origin};
         const Vec3 u = random.direction(), v = random.direction();
         const auto offset = [&](const Vec3& edge, double size) { return -dot(edge, corner) / size; };
-        const Image<N> image{make_axis<N>(by_u, u, offset(u, u_length), true), make_axis<N>(by_v, v, offset(v, v_length), true),
+        const Image<N> image{make_axis<N>(by_u, u, offset(u, u_length), true),
+            make_axis<N>(by_v, v, offset(v, v_length), true),
                              texels_of_places<N>()};
         const Point<N> q = make<N>::point(random.point(15));
         const Vec<Real> r = real(q) + real(by_u.origin) - real(corner);
         const Real s = dot(r, real(u)) / u_length * wide, t = dot(r, real(v)) / v_length * high;
-        if (from_integer(s) <= wide * place_tolerance<N>(by_u, 32) || from_integer(t) <= high * place_tolerance<N>(by_v, 32))
+        if (from_integer(s) <= wide * place_tolerance<N>(by_u, 32)
+            || from_integer(t) <= high * place_tolerance<N>(by_v, 32))
             continue;
         checked++;
-        ASSERT_EQ(shown<N>(image, q), (Place{static_cast<int>(wrapped(s / wide) * wide), static_cast<int>(wrapped(t / high) * high)}));
+        ASSERT_EQ(shown<N>(image, q), (Place{static_cast<int>(wrapped(s / wide) * wide),
+            static_cast<int>(wrapped(t / high) * high)}));
     }
     EXPECT_GT(checked, 3000);
 }
@@ -268,14 +280,16 @@ TYPED_TEST(TexelsTest, GlobeIsLookedUpByLongitudeAndLatitude)
     EXPECT_GT(checked, 3000);
 }
 
-// The seam is behind, at negative z: its texels are the first on the one side, the last on the other. Poles are of the lowest
-// and the highest row, and of the column in front.
+// The seam is behind, at negative z: its texels are the first on the one side, the last on the other. Poles are of the
+// lowest and the highest row, and of the column in front.
 TYPED_TEST(TexelsTest, GlobeHasASeamAndPoles)
 {
     using N = TypeParam;
     for (const double radius : {0.25, 1.0, 20.0}) {
         const Globe<N> globe{make<N>::point(1, 2, 3), 0, texels_of_places<N>()};
-        const auto at = [&](double x, double y, double z) { return shown<N>(globe, make<N>::point(1 + radius * x, 2 + radius * y, 3 + radius * z)); };
+        const auto at = [&](double x, double y, double z) {
+            return shown<N>(globe, make<N>::point(1 + radius * x, 2 + radius * y, 3 + radius * z));
+        };
         EXPECT_EQ(at(0, 0, 1), (Place{wide / 2, high / 2}));
         EXPECT_EQ(at(0, 0, -1), (Place{0, high / 2}));
         EXPECT_EQ(at(0.01, 0, -1), (Place{wide - 1, high / 2}));
@@ -299,9 +313,11 @@ TYPED_TEST(TexelsTest, PicturesShowImages)
     using N = TypeParam;
     files = {{"chart", ppm(3, 2, std::string("\xff\0\0\0\xff\0\0\0\xff\x80\x80\0\0\x80\x80\x80\0\x80", 18))}};
     const std::string head = "v from 0 0 5 at 0 0 0 up 0 1 0 angle 90 hither 1 resolution 6 6\nambientlight 1 1 1\n";
-    ASSERT_TRUE(loaded<N>(head + "material texture image chart 5 -5 0 -10 0 0 0 10 0\n disc 0 0 0 0 0 1 30", {}, &beside));
+    ASSERT_TRUE(loaded<N>(head + "material texture image chart 5 -5 0 -10 0 0 0 10 0\n disc 0 0 0 0 0 1 30", {},
+        &beside));
     const Picture p = draw<N>();
-    const std::array<uint8_t, 3> rows[2][3] = {{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}}, {{128, 128, 0}, {0, 128, 128}, {128, 0, 128}}};
+    const std::array<uint8_t, 3> rows[2][3] = {{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}},
+        {{128, 128, 0}, {0, 128, 128}, {128, 0, 128}}};
     for (uint32_t j = 0; j < 6; j++)
         for (uint32_t i = 0; i < 6; i++) {
             const auto& c = rows[j / 3][2 - i / 2];

@@ -38,8 +38,8 @@ double arc_tangent(double y, double x)
     return y > x ? 2 * quarter - angle : angle;
 }
 
-// The share of the half sphere around the unit vector n that a figure takes, seen from the origin and weighted by the cosine
-// (Lambert's formula). `corner(i)` is one of its `count` corners; what is below the horizon is cut off.
+// The share of the half sphere around the unit vector n that a figure takes, seen from the origin and weighted by the
+// cosine (Lambert's formula). `corner(i)` is one of its `count` corners; what is below the horizon is cut off.
 template <class F>
 double form_factor(uint32_t count, F corner, const Vec3d& n)
 {
@@ -130,7 +130,8 @@ struct LightNode {
     bool seen, filled; // it lies on the surface; it has light, at least of its neighbours
 };
 
-// Where a surface that stands on another, or goes through it, meets its plane: from a to b, on a line where n.p = height.
+// Where a surface that stands on another, or goes through it, meets its plane: from a to b, on a line
+// where n.p = height.
 struct Wall {
     Point2 a, b, n;
     double height;
@@ -197,7 +198,10 @@ public:
         Room surfaces, cells;
     };
 
-    Solver(Description& to, const Solving& how, Rooms& in) : d(to), with(how), rooms(in), builder(to, settings, in.storage) {}
+    Solver(Description& to, const Solving& how, Rooms& in)
+        : d(to), with(how), rooms(in), builder(to, settings, in.storage)
+    {
+    }
 
     bool solve(Error& error)
     {
@@ -344,7 +348,8 @@ private:
             lay_cells(surfaces[i], needed);
         if (needed > Limits::cells) {
             snprintf(error.text, sizeof error.text,
-                     "'radiosity %g' needs %.0f cells of light; expected at most %u (limit 'cells')", d.radiosity, needed,
+                     "'radiosity %g' needs %.0f cells of light; expected at most %u (limit 'cells')",
+                     d.radiosity, needed,
                      Limits::cells);
             return false;
         }
@@ -358,7 +363,8 @@ private:
         s.n = unit(across(figure, s.corners));
         Vec3d longest;
         for (uint32_t i = 0; i < s.corners; i++)
-            if (const Vec3d edge = figure[i + 1 < s.corners ? i + 1 : 0] - figure[i]; length(edge) > 1.001 * length(longest))
+            if (const Vec3d edge = figure[i + 1 < s.corners ? i + 1 : 0] - figure[i];
+                length(edge) > 1.001 * length(longest))
                 longest = edge;
         s.u = unit(longest - s.n * dot(longest, s.n));
         s.v = cross(s.n, s.u);
@@ -520,8 +526,8 @@ private:
         const Point2 low{number % columns * width, number / columns * height};
         return {low, {low.x + width, low.y + height}};
     }
-    // What of a surface lies in a rectangle and on some sides of walls, into rings[0]: twice its area, and its middle. 0 where
-    // it is next to nothing.
+    // What of a surface lies in a rectangle and on some sides of walls, into rings[0]: twice its area, and its middle.
+    // 0 where it is next to nothing.
     double cut_out(const FlatSurface& s, const Quad& quad, const QuadPart* part, Point2& middle)
     {
         begin_ring(s);
@@ -530,7 +536,8 @@ private:
         rings[0].cut(rings[1], [&](const Point2& p) { return p.y - quad.low.y; });
         rings[1].cut(rings[0], [&](const Point2& p) { return quad.high.y - p.y; });
         for (uint32_t i = 0; part != nullptr && i < part->count; i++) {
-            rings[0].cut(rings[1], [&](const Point2& p) { return part->walls[i]->above(p) * (part->above[i] ? 1 : -1); });
+            rings[0].cut(rings[1],
+                         [&](const Point2& p) { return part->walls[i]->above(p) * (part->above[i] ? 1 : -1); });
             std::swap(rings[0], rings[1]);
         }
         const double area = rings[0].area(middle);
@@ -569,7 +576,8 @@ private:
             const Point<Double> q = vec(at);
             const Surface<Double> surface{q, vec(s.n), normal, -1, cell.side != 0, step_off<Double>(q, normal, true)};
             const Tag tag = make_tag(s.place, s.fill);
-            cell.own = cell.own + vec(local_light(view, Seen<Double>{surface, s.kind, tag, s.fill, down}, count, PanelMiddle{}));
+            const Seen<Double> seen{surface, s.kind, tag, s.fill, down};
+            cell.own = cell.own + vec(local_light(view, seen, count, PanelMiddle{}));
             cell.colour = cell.colour + vec(colour_at(view, s.fill, q));
             places++;
         };
@@ -588,8 +596,8 @@ private:
         cell.sent = cell.own;
     }
 
-    // Light of what glows comes exactly, where nothing is between, and the rest by rays; in a room that glows all over, rays know
-    // it as well.
+    // Light of what glows comes exactly, where nothing is between, and the rest by rays; in a room that glows all over,
+    // rays know it as well.
     void take_glow_apart()
     {
         uint32_t shining = 0, all_pieces = 0;
@@ -614,7 +622,8 @@ private:
                 if (cut_out(s, cell_of(s, columns, rows, k), nullptr, middle) == 0)
                     continue;
                 const Vec3d at = s.at(middle);
-                pieces[piece_count++] = {at, vec(colour_at(view, s.fill, vec(at))) * emission, corner, rings[0].count, i};
+                pieces[piece_count++] = {at, vec(colour_at(view, s.fill, vec(at))) * emission, corner,
+                                         rings[0].count, i};
                 for (uint32_t c = 0; c < rings[0].count; c++)
                     piece_corners[corner++] = s.at(rings[0].at[c]);
             }
@@ -627,7 +636,8 @@ private:
         Vec3d sum;
         const Vec3d n = s.normal(side);
         for (const Piece* p = pieces; p != pieces + piece_count; p++) {
-            const double share = form_factor(p->corners, [&](uint32_t i) { return piece_corners[p->corner + i] - at; }, n);
+            const double share =
+                form_factor(p->corners, [&](uint32_t i) { return piece_corners[p->corner + i] - at; }, n);
             if (!(share > 1e-12) || surfaces[p->surface].place == s.place)
                 continue;
             const Vec3d way = p->at - at;
@@ -638,7 +648,8 @@ private:
         return sum;
     }
 
-    // Of the rays of a place: calls met(cell, weight) where they meet what takes part; the sum of the light that others send.
+    // Of the rays of a place: calls met(cell, weight) where they meet what takes part; the sum of the light that others
+    // send.
     template <class Met>
     Vec3d gather(const FlatSurface& s, const Vec3d& at, uint32_t side, Met met) const
     {
@@ -804,7 +815,8 @@ private:
         start(grid.x, s.u, s.width, s.columns);
         start(grid.y, s.v, s.height, s.rows);
         if (s.cells() > 1 && piece_count != 0 && s.columns < 128 && s.rows < 128) {
-            memset(static_cast<void*>(glows_seen), 0, (fine * s.columns + 1) * (fine * s.rows + 1) * sizeof *glows_seen);
+            memset(static_cast<void*>(glows_seen), 0,
+                   (fine * s.columns + 1) * (fine * s.rows + 1) * sizeof *glows_seen);
             for (uint32_t gap = fine; gap > 1; gap /= 2) {
                 refine(s, side, grid.x, grid.y, gap, false);
                 refine(s, side, grid.y, grid.x, gap, true);
@@ -818,7 +830,8 @@ private:
                 const bool middle = kx % fine == fine / 2 && ky % fine == fine / 2;
                 const Point2 p = step_place(s, kx, ky);
                 const uint32_t cell = s.cell + side * s.cells() + ky / fine * s.columns + kx / fine;
-                push_node({surface, middle ? cell : none, middle ? s.place_of(cells[cell].at) : p, static_cast<uint8_t>(side),
+                push_node({surface, middle ? cell : none, middle ? s.place_of(cells[cell].at) : p,
+                    static_cast<uint8_t>(side),
                            middle ? cells[cell].seen : holds(s, p), false});
             }
         cut_by_walls(s, side, grid);
@@ -889,7 +902,8 @@ private:
                 part = above;
                 parts[count++] = below;
             }
-        if (count == 1 && (cell_count >= most_cells() || !parted(s, {(quad.low.x + quad.high.x) / 2, (quad.low.y + quad.high.y) / 2})))
+        const Point2 between{(quad.low.x + quad.high.x) / 2, (quad.low.y + quad.high.y) / 2};
+        if (count == 1 && (cell_count >= most_cells() || !parted(s, between)))
             return 0;
         for (uint32_t i = 0; i < count; i++) {
             const QuadPart& part = parts[i];
@@ -959,8 +973,8 @@ private:
         return {corner.x + (middle.x - corner.x) * way, corner.y + (middle.y - corner.y) * way};
     }
 
-    // Halves gaps between nodes along an axis where the light between them, at a node across, is not the mean; and adds nodes
-    // at the edges where it is not as at the outermost.
+    // Halves gaps between nodes along an axis where the light between them, at a node across, is not the mean; and adds
+    // nodes at the edges where it is not as at the outermost.
     void refine(const FlatSurface& s, uint32_t side, NodeAxis& axis, const NodeAxis& other, uint32_t gap, bool across)
     {
         uint16_t* const node = d.nodes + axis.first;
@@ -1002,7 +1016,10 @@ private:
         axis.count = count;
     }
     static constexpr double bend = 1.0 / 64, white = 4;
-    static Vec3d seen_light(const Glow& g) { return {fmin(g.light.x, white), fmin(g.light.y, white), fmin(g.light.z, white)}; }
+    static Vec3d seen_light(const Glow& g)
+    {
+        return {fmin(g.light.x, white), fmin(g.light.y, white), fmin(g.light.z, white)};
+    }
 
     Vec3d light_by_glow(const LightNode& node)
     {
@@ -1027,7 +1044,8 @@ private:
         double u, v;
         Vec3d light(const Vec3d* of) const
         {
-            return (of[lights[0]] * (1 - u) + of[lights[1]] * u) * (1 - v) + (of[lights[2]] * (1 - u) + of[lights[3]] * u) * v;
+            return (of[lights[0]] * (1 - u) + of[lights[1]] * u) * (1 - v)
+                + (of[lights[2]] * (1 - u) + of[lights[3]] * u) * v;
         }
     };
     Near find(uint32_t number, const Vec3d& at) const
@@ -1042,11 +1060,15 @@ private:
             part = fmin(fmax((steps - node[i]) / (node[i + 1] - node[i]), 0), 1);
             return i;
         };
-        const auto index = [](double v, uint32_t parts) { return v > 0 ? std::min(static_cast<uint32_t>(v), parts - 1) : 0; };
+        const auto index = [](double v, uint32_t parts) {
+            return v > 0 ? std::min(static_cast<uint32_t>(v), parts - 1) : 0;
+        };
         const Point2 p = s.place_of(at);
         Near near{};
-        const uint32_t x = place(grid.x, p.x * fine / s.width, near.u), y = place(grid.y, p.y * fine / s.height, near.v);
-        near.cell = s.cell + number % 2 * s.cells() + index(p.y / s.height, s.rows) * s.columns + index(p.x / s.width, s.columns);
+        const uint32_t x = place(grid.x, p.x * fine / s.width, near.u),
+                       y = place(grid.y, p.y * fine / s.height, near.v);
+        near.cell = s.cell + number % 2 * s.cells() + index(p.y / s.height, s.rows) * s.columns
+            + index(p.x / s.width, s.columns);
         uint32_t low = grid.first + y * grid.x.count + x, high = low + (grid.y.count > 1 ? grid.x.count : 0);
         if (grid.cuts != 0)
             if (uint32_t link = d.roots[grid.first_root + y * (grid.x.count - 1) + x]; link != 0) {
