@@ -112,10 +112,10 @@ build/sanitized/obj/gtest.hpp.gch: USED = $(SANITIZE) -O0
 	@echo '#include <gtest/gtest.h>' > $(@:.gch=)
 	@$(CXX) $(USED) -x c++-header $(@:.gch=) -o $@
 
-# The same command with q16 and q32 made in other ways, for the test that their bytes are the same.
+# The same command with its fixed point made in other ways, for the test that their bytes are the same.
 VARIANTS := g++_-O0 g++_-O3_native clang++_-O0 clang++_-O2 clang++_-O3_native # '=' in a target is none to make
-build/variants/%/qray: build/variants/%/kernel_q16.o build/variants/%/kernel_q32.o \
-    $(filter-out %/kernel_q16.o %/kernel_q32.o,$(PLAIN))
+FIXED    := $(patsubst src/cli/%.cpp,%.o,$(wildcard src/cli/kernel_q*.cpp))
+build/variants/%/qray: $(addprefix build/variants/%/,$(FIXED)) $(filter-out $(addprefix %/,$(FIXED)),$(PLAIN))
 	@$(CXX) $(STATIC) $^ -pthread -o $@
 build/variants/%.o: build/obj/flags
 	@echo "  compile src/cli/$(*F).cpp with $(subst _, ,$(*D))"

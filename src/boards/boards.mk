@@ -40,8 +40,8 @@ endif
 ifneq ($(if $(SCENE),$(wildcard $(SCENE)),-),$(or $(SCENE),-))
 $(error there is no scene $(SCENE))
 endif
-ifeq ($(filter q16 q32 float double,$(NUMBER)),)
-$(error NUMBER=$(NUMBER): expected q16, q32, float or double)
+ifeq ($(filter q16 q24 q32 float double,$(NUMBER)),)
+$(error NUMBER=$(NUMBER): expected q16, q24, q32, float or double)
 endif
 ifeq ($(filter semihosting uart,$(OUTPUT)),)
 $(error OUTPUT=$(OUTPUT): expected uart, or none)

@@ -182,7 +182,9 @@ void explain(const scene::Description& from, uint32_t x, uint32_t y, Explanation
 void explain_pixel(Number number, const scene::Description& from, uint32_t x, uint32_t y, Explanation& into)
 {
     using Explain = void (*)(const scene::Description&, uint32_t, uint32_t, Explanation&);
-    constexpr Explain of[] = {explain<q16>, explain<q32>, explain<Float>, explain<Double>};
+#define QRAY_NUMBER(Type, name) explain<Type>,
+    constexpr Explain of[] = {QRAY_NUMBERS(QRAY_NUMBER)};
+#undef QRAY_NUMBER
     of[static_cast<int>(number)](from, x, y, into);
 }
 

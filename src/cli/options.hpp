@@ -1,13 +1,17 @@
 // The command line of qray, qray compile and qray explain: one table of options for all.
 #pragma once
 
+#include "../scene/numbers.hpp"
 #include "../scene/settings.hpp"
 
 namespace qray::cli {
 
-// The number systems, in the order of number_names and of renderers.
-enum class Number : uint8_t { q16, q32, single_float, double_float };
-constexpr const char* number_names[] = {"q16", "q32", "float", "double"};
+#define QRAY_NUMBER(Type, name) Type,
+enum class Number : uint8_t { QRAY_NUMBERS(QRAY_NUMBER) };
+#undef QRAY_NUMBER
+#define QRAY_NUMBER(Type, name) #name,
+constexpr const char* number_names[] = {QRAY_NUMBERS(QRAY_NUMBER)};
+#undef QRAY_NUMBER
 
 enum class Command : uint8_t { draw = 1, compile = 2, explain = 4 };
 

@@ -20,7 +20,7 @@ bool has_lanes()
 const Renderer& fastest_renderer(Number number)
 {
     const Renderer* const lanes = number == Number::q32 ? &q32_lanes_renderer
-        : number == Number::single_float                ? &float_lanes_renderer
+        : number == Number::Float                       ? &float_lanes_renderer
                                                         : nullptr;
     return lanes != nullptr && has_lanes() ? *lanes : *renderers[static_cast<int>(number)];
 }

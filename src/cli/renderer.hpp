@@ -33,8 +33,12 @@ struct Renderer {
     void (*emit)(scene::Source& out, const char* title, const char* origin, const char* name);
 };
 
-extern const Renderer q16_renderer, q32_renderer, float_renderer, double_renderer;
-inline const Renderer* const renderers[] = {&q16_renderer, &q32_renderer, &float_renderer, &double_renderer};
+#define QRAY_NUMBER(Type, name) extern const Renderer name##_renderer;
+QRAY_NUMBERS(QRAY_NUMBER)
+#undef QRAY_NUMBER
+#define QRAY_NUMBER(Type, name) &name##_renderer,
+inline const Renderer* const renderers[] = {QRAY_NUMBERS(QRAY_NUMBER)};
+#undef QRAY_NUMBER
 
 // The same pictures with vectors in registers (include/qray/number/lanes.hpp): null where they were not compiled.
 extern const Renderer q32_lanes_renderer __attribute__((weak)), float_lanes_renderer __attribute__((weak));

@@ -10,6 +10,7 @@
 #include "flatten.hpp"
 #include "lean.hpp"
 #include "moving.hpp"
+#include "numbers.hpp"
 #include "resolution.hpp"
 #include "settings.hpp"
 #include "storage.hpp"
@@ -75,14 +76,16 @@ public:
         return Convert<N>::length(r * frame.scale * (1 + 1e-6) + (NarrowFixed<N> ? 6.0 / 1024 : 2e-6));
     }
 
-    // The most bits that a shape of this size can have beyond Length's: 2^fine times it, and a little more that a
-    // conservative test may let pass, stays within `most`.
-    int fine_for(double size, double most) const
+    // The most bits that a shape of this size can have beyond Length's: see Blocks.
+    int fine_for([[maybe_unused]] double size, [[maybe_unused]] int32_t Blocks::*within) const
     {
         int fine = 0;
-        if constexpr (N::is_fixed)
-            while (fine < 10 && ldexp(size * frame.scale + (NarrowFixed<N> ? 1.0 / 128 : 1.0 / 16), fine + 1) <= most)
+        if constexpr (N::is_fixed) {
+            const double with_slack = ldexp(size * frame.scale, N::Length::frac) + N::blocks.slack;
+            fine = N::blocks.least;
+            while (fine < N::blocks.most && ldexp(with_slack, fine + 1) <= N::blocks.*within)
                 fine++;
+        }
         return fine;
     }
 
@@ -164,18 +167,18 @@ private:
             const double step = resolution.step();
             if (frame.radius < Limits::narrow_radius * step) {
                 snprintf(error.text, sizeof error.text,
-                         "q16 has lengths in steps of %.3g where planes reach as far as %.6g, and the scene's radius "
+                         "%s has lengths in steps of %.3g where planes reach as far as %.6g, and the scene's radius "
                          "of %.3g is less than %.0f of them; expected a nearer 'far', or another number system",
-                         step, frame.far, frame.radius, Limits::narrow_radius);
+                         number_name<N>(), step, frame.far, frame.radius, Limits::narrow_radius);
                 return false;
             }
             for (uint32_t i = 0; i < d.fill_count; i++)
                 if (const Texture& t = d.fills[i].texture;
                     t.kind != TextureKind::none && t.kind != TextureKind::globe && t.size < Limits::narrow_cell * step) {
                     snprintf(error.text, sizeof error.text,
-                             "q16 has lengths in steps of %.3g here, and a texture's size of %.3g is less than "
+                             "%s has lengths in steps of %.3g here, and a texture's size of %.3g is less than "
                              "1/%.0f of one; expected a larger one, or another number system",
-                             step, t.size, 1 / Limits::narrow_cell);
+                             number_name<N>(), step, t.size, 1 / Limits::narrow_cell);
                     return false;
                 }
         }
@@ -447,7 +450,9 @@ private:
         // What keeps a surface in a plane of the lattice clean: not less than a hit may lie off its surface.
         double epsilon() const
         {
-            return NarrowFixed<N> ? fmax(1.0 / 1024, ldexp(1.5, -10) / (t.size * frame.scale)) : 1.0 / 1024;
+            if constexpr (NarrowFixed<N>)
+                return fmax(1.0 / 1024, ldexp(1.5, -N::Length::frac) / (t.size * frame.scale));
+            return 1.0 / 1024;
         }
         Vec3d direction() const { return scene::length(t.axis) > 0 ? unit(t.axis) : Vec3d{0, 1, 0}; }
         LatticeAxis<N> axis(const Vec3d& along, double offset, bool wraps) const
@@ -593,7 +598,7 @@ private:
             int exponent = 0;
             frexp((scene::length(row) * world + fabs(offset)) * 1.01, &exponent);
             const int shift = std::min(30 - exponent, 24);
-            const double k = ldexp(1, shift - N::Length::frac);
+            const double k = ldexp(1, shift - N::Length::frac + N::dropped);
             return {whole(row.x * k), whole(row.y * k), whole(row.z * k), whole(ldexp(offset, shift)), shift};
         } else if constexpr (N::is_fixed) {
             const Vec3d r = row * ldexp(1, 32 - N::Length::frac);

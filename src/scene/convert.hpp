@@ -56,9 +56,10 @@ struct Convert {
     static typename N::Scale inverse(typename N::Length r)
     {
         if constexpr (NarrowFixed<N>) {
-            // r << shift in [2^14, 2^15), or r itself, up to 36700
-            const int zeros = count_leading_zeros(static_cast<uint32_t>(r.raw)), shift = zeros > 17 ? zeros - 17 : 0;
-            return {static_cast<int32_t>(lrint(ldexp(1, 15 + N::Unit::frac - shift) / r.raw)), shift};
+            // r << shift has ratio_bits, or r itself some more
+            const int zeros = count_leading_zeros(static_cast<uint32_t>(r.raw)), most = 32 - N::ratio_bits,
+                      shift = zeros > most ? zeros - most : 0;
+            return {static_cast<int32_t>(lrint(ldexp(1, 14 + N::ratio_bits - shift) / r.raw)), shift};
         } else if constexpr (N::is_fixed) {
             const int shift = count_leading_zeros(static_cast<uint32_t>(r.raw)) - 1; // r << shift in [2^30, 2^31)
             const double mantissa = ldexp(1, 61 - shift) / r.raw;
@@ -97,7 +98,7 @@ struct Convert {
             }
             const int frac = 31 - exponent;
             const auto row_of = [frac](double v) {
-                return static_cast<int32_t>(llrint(ldexp(v, frac - N::Length::frac)));
+                return static_cast<int32_t>(llrint(ldexp(v, frac - N::Length::frac + N::dropped)));
             };
             const double cell = floor(whole);
             const double index = wraps ? fmod(cell, 4294967296.0) : fmax(-0x1p30, fmin(0x1p30, cell));

@@ -5,7 +5,6 @@
 #include <concepts>
 #include <iterator>
 #include <string_view>
-#include <type_traits>
 
 #include "effect_names.hpp"
 #include "members.hpp"
@@ -119,7 +118,7 @@ private:
     {
         if (e.shapes() != 0)
             out.put("using qray::make_tag; // place in the scene file, material\n");
-        out.print("using Number = qray::%s;\n", number_name());
+        out.print("using Number = qray::%s;\n", number_type<N>());
         if constexpr (N::is_fixed)
             out.print("// Lengths are in 2^-%d, unit vectors and coefficients in 2^-%d, light in 2^-%d.\n",
                       N::Length::frac, N::Unit::frac, N::Colour::frac);
@@ -185,14 +184,6 @@ private:
         if (moves("entries"))
             out.print("\n// After shapes have moved, before a picture.\ninline void refit() {%s}\n",
                       e.flat_tree ? " qray::refit(scene, entries.data); " : "");
-    }
-
-    static constexpr const char* number_name()
-    {
-        return std::is_same_v<N, Float> ? "Float"
-            : std::is_same_v<N, Double> ? "Double"
-            : NarrowFixed<N>            ? "q16"
-                                        : "q32";
     }
 
     void effects()

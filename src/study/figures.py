@@ -16,8 +16,8 @@ matplotlib.use("svg")
 plt.rcParams.update({"svg.hashsalt": "qray", "svg.fonttype": "none", "font.size": 9, "axes.grid": True,
                      "axes.axisbelow": True, "grid.color": "#dde", "legend.frameon": False,
                      "figure.constrained_layout.use": True})
-COLOURS = {"q16": "#c0392b", "q32": "#1f5fa8", "float": "#1a8f4c", "double": "#8e44ad"}
-MARKS = {"q16": "^", "q32": "o", "float": "s", "double": "D"}
+COLOURS = {"q16": "#c0392b", "q24": "#d68910", "q32": "#1f5fa8", "float": "#1a8f4c", "double": "#8e44ad"}
+MARKS = {"q16": "^", "q24": "v", "q32": "o", "float": "s", "double": "D"}
 BITS = {"float": 32, "double": 64}  # of others their names say it
 TONES = ["#b9770e", "#1f5fa8", "#8e44ad", "#1a8f4c"]
 COST = "instructions/pixel at error size"

@@ -48,9 +48,9 @@ uint64_t draw(const Scattered& combs, uint32_t k, Pixels& pixels, size_t to)
     }
     return counts.rays[0] + counts.rays[1] + counts.rays[2] + counts.rays[3];
 }
-constexpr uint64_t (*draw_in[])(const Scattered&, uint32_t, Pixels&, size_t) = {draw<q16>, draw<q32>, draw<Float>,
-                                                                               draw<Double>};
-static_assert(std::size(draw_in) == std::size(cli::number_names));
+#define QRAY_NUMBER(Type, name) draw<Type>,
+constexpr uint64_t (*draw_in[])(const Scattered&, uint32_t, Pixels&, size_t) = {QRAY_NUMBERS(QRAY_NUMBER)};
+#undef QRAY_NUMBER
 
 // [rays, squares, other objects]
 void print_comb(uint64_t rays, size_t first, size_t length)

@@ -10,7 +10,7 @@ template <class N>
 struct Panel {
     static constexpr bool has_place = true;
     // Lengths are finer by so many bits, so that sums of steps stay exact enough.
-    static constexpr int fine = NarrowFixed<N> ? 8 : 0;
+    static constexpr int fine = ShortFixed<N> ? 8 : NarrowFixed<N> ? 4 : 0;
 
     Point<N> corner;         // in units of 2^(shift - fine) lengths, as are
     Point<N> step_u, step_v; // from a place to the next

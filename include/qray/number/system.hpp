@@ -36,6 +36,13 @@ struct FixedScale {
     int32_t shift;
 };
 
+// What is squared is block-scaled first, times 2^fine, fine from `least` to `most`: so that the radius of a ball, and of a
+// cone's ball, with `slack` more for what a coarse test lets pass, stays within these, in ulp.
+struct Blocks {
+    int least, most;
+    int32_t slack, ball, cone;
+};
+
 // What every system of fixed point has alike: how many bits its quantities have behind the point, and 16 or 32 to hold
 // those that are multiplied.
 template <int LengthFrac, int UnitFrac, int ColourFrac, int EtaFrac, int Bits>
@@ -45,11 +52,13 @@ struct FixedNumbers {
     using Unit = Fixed<UnitFrac, Bits>;
     using Colour = Fixed<ColourFrac, Bits>;
     using Eta = Fixed<EtaFrac, Bits>; // ratio of refractive indices, up to 8
-    using Area = Wide<2 * LengthFrac, Bits>;
-    using Moment = Wide<LengthFrac + UnitFrac, Bits>; // a Length times a Unit
-    using Cosine = Wide<2 * UnitFrac, Bits>;
+    using Area = decltype(Length{} * Length{});
+    using Moment = decltype(Length{} * Unit{});
+    using Cosine = decltype(Unit{} * Unit{});
     using Scale = FixedScale;
     using Shine = Exponent;
+
+    static constexpr int dropped = LengthFrac + UnitFrac - Moment::frac; // bits of such a product
 
     static constexpr Length length_zero{0};
     static constexpr Unit one{int32_t{1} << UnitFrac};
@@ -75,6 +84,7 @@ struct FixedNumbers {
     {
         return {(a.raw + (1 << fine >> 1)) >> fine};
     }
+    QRAY_INLINE static constexpr Length coarse_below(Length a, int32_t fine) { return {a.raw >> fine}; }
 
     // Block scaling: 2^k a.
     template <int F>
@@ -89,7 +99,7 @@ struct FixedNumbers {
     // eta x, clamped to +-5/4: a bent direction longer than 1 is totally reflected, however long.
     QRAY_INLINE static constexpr Unit bent(Eta eta, Unit x)
     {
-        using Bent = Wide<Eta::frac + UnitFrac, Bits>;
+        using Bent = decltype(eta * x);
         constexpr typename Bent::Rep limit = typename Bent::Rep{5} << (Bent::frac - 2);
         const Bent w = eta * x;
         return round_to<Unit>(Bent{w.raw > limit ? limit : w.raw < -limit ? -limit : w.raw});
@@ -114,6 +124,9 @@ struct FixedNumbers {
 // Fixed point whose products take one register of 32 bits, and fixed point whose products take 64.
 template <class N>
 concept NarrowFixed = N::is_fixed && sizeof(typename N::Moment) == 4;
+// Whose angles and shares take 16 bits.
+template <class N>
+concept ShortFixed = NarrowFixed<N> && N::Unit::frac < 16;
 template <class N>
 concept WideFixed = N::is_fixed && sizeof(typename N::Moment) == 8;
 
@@ -154,6 +167,7 @@ concept NumberSystem = requires(typename N::Length l, typename N::Unit u, typena
     { N::headroom(cosine, cosine, cosine) } -> Is<int>;
     { N::shifted(cosine, k) } -> Is<typename N::Cosine>;
     { N::most_headroom } -> Is<const int&>;
+    requires !N::is_fixed || requires { { N::blocks } -> Is<const Blocks&>; };
     // Roots, quotients, unit vectors, powers.
     { N::sqrt(area) } -> Is<typename N::Length>;
     { N::root(area) } -> Is<typename N::Length>; // of what is known to be 0 or more

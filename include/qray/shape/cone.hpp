@@ -230,7 +230,6 @@ template <class N>
 constexpr bool move(const Cone<N>& from, const Corners<N>&, const Motion<N>& motion, Cone<N>& to, const MovedCorners<N>&)
 {
     using Length = typename N::Length;
-    constexpr int32_t world = NarrowFixed<N> ? 18 : 40; // what a ball may be
     Cone<N> s = from;
     s.middle = motion(from.middle);
     s.e1 = motion.direction(from.e1);
@@ -239,7 +238,7 @@ constexpr bool move(const Cone<N>& from, const Corners<N>&, const Motion<N>& mot
     if (motion.turned() || motion.scaled())
         s.rounded = {};
     if (motion.scaled()) {
-        s.fine = block_scale<N>(motion.length(from.bound, -from.fine), 10 * world);
+        s.fine = block_scale<N>(motion.length(from.bound, -from.fine), &Blocks::cone);
         const int up = s.fine - from.fine;
         s.rho0 = motion.length(from.rho0, up);
         s.half = motion.length(from.half, up);
@@ -248,9 +247,9 @@ constexpr bool move(const Cone<N>& from, const Corners<N>&, const Motion<N>& mot
     const Length bound = N::coarse(s.bound, s.fine);
     Length most{};
     if constexpr (N::is_fixed)
-        most = {world << Length::frac};
+        most = {N::blocks.cone << -N::blocks.least};
     else
-        most = world;
+        most = 40;
     if (!motion.valid() || !(bound <= most) || !(s.half > N::length_zero) || !(s.half <= s.bound)
         || !ball_in_world<N>(s.middle))
         return false;
@@ -261,7 +260,7 @@ constexpr bool move(const Cone<N>& from, const Corners<N>&, const Motion<N>& mot
     if (!ball_in_world<N>(s.middle, bound)) {
         Length rim{};
         if constexpr (N::is_fixed)
-            rim = {static_cast<int32_t>(isqrt(wide_square(s.bound.raw) - wide_square(s.half.raw))) >> s.fine};
+            rim = N::coarse_below({static_cast<int32_t>(isqrt(wide_square(s.bound.raw) - wide_square(s.half.raw)))}, s.fine);
         else
             rim = N::sqrt(s.bound * s.bound - s.half * s.half);
         if (!disc_in_world<N>(s.middle + end, s.axis, rim) || !disc_in_world<N>(s.middle - end, s.axis, rim))

@@ -124,7 +124,7 @@ private:
 
 // Where the exact test is as narrow: the perpendicular of sphere.hpp to one ulp, component by component.
 template <class N>
-    requires NarrowFixed<N>
+    requires ShortFixed<N>
 struct RejectRay<N> {
     const Ray<N>& ray;
 
@@ -158,6 +158,34 @@ private:
     {
         return static_cast<uint32_t>(a) * static_cast<uint32_t>(a);
     }
+};
+
+// In q24, q16's of what is cut off to it. A difference of points (up to 128000) is wrong by less than 1 a component, a
+// direction by 1/2: so b by less than sqrt(3) (128000 2^-15 + 1) + 1 < 9.5, and the perpendicular by that and by
+// sqrt(3) (128000 2^-15 + 2): less than 20 in all, and the radius by 1.
+template <class N>
+    requires(NarrowFixed<N> && !ShortFixed<N>)
+struct RejectRay<N> {
+    static constexpr int down = N::Length::frac - q16::Length::frac, down_unit = N::Unit::frac - q16::Unit::frac, slack = 21;
+    Ray<q16> ray;
+
+    QRAY_INLINE constexpr explicit RejectRay(const Ray<N>& r)
+        : ray{cut(r.origin), {rounded(r.direction.x), rounded(r.direction.y), rounded(r.direction.z)}, r.from, r.outward}
+    {
+    }
+
+    QRAY_INLINE constexpr bool misses_ball(const Point<N>& centre, typename N::Length radius) const
+    {
+        return RejectRay<q16>(ray).misses_ball(cut(centre), {(radius.raw >> down) + slack});
+    }
+    constexpr bool misses_plane(const Point<N>&, const Direction<N>&) const { return false; }
+
+private:
+    QRAY_INLINE static constexpr Point<q16> cut(const Point<N>& p)
+    {
+        return {{p.x.raw >> down}, {p.y.raw >> down}, {p.z.raw >> down}};
+    }
+    QRAY_INLINE static constexpr q16::Unit rounded(typename N::Unit v) { return {(v.raw + (1 << (down_unit - 1))) >> down_unit}; }
 };
 
 } // namespace qray

@@ -78,17 +78,15 @@ constexpr bool move(const S<N>& from, const Motion<N>& motion, S<N>& to)
     return move(from, Corners<N>{}, motion, to, MovedCorners<N>{});
 }
 
-// The most bits that a shape of this size can have beyond Length's, as the builder has it: 2^fine times it, and a little
-// more, stays within most/10.
+// The most bits that a shape of this size can have beyond Length's: see Blocks.
 template <class N>
-constexpr int block_scale(typename N::Length size, int32_t most)
+constexpr int block_scale(typename N::Length size, [[maybe_unused]] int32_t Blocks::*within)
 {
     int fine = 0;
     if constexpr (N::is_fixed) {
-        constexpr int frac = N::Length::frac;
-        const int64_t with_slack = int64_t{size.raw} + (1 << (frac - (NarrowFixed<N> ? 7 : 4)));
-        const int64_t limit = (int64_t{most} << frac) / 10;
-        while (fine < 10 && with_slack << (fine + 1) <= limit)
+        const int64_t with_slack = int64_t{size.raw} + N::blocks.slack;
+        fine = N::blocks.least;
+        while (fine < N::blocks.most && with_slack << (fine + 1 - N::blocks.least) <= int64_t{N::blocks.*within} << -N::blocks.least)
             fine++;
     }
     return fine;

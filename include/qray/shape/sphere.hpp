@@ -139,15 +139,16 @@ constexpr bool set_radius(Sphere<N>& s, Radius radius_times) // radius_times(fin
     using Length = typename N::Length;
     const Length size = radius_times(0);
     if constexpr (N::is_fixed) {
-        if (size < N::leave(N::one) || size.raw > 36700 << (Length::frac - 10)) // see q16.hpp
+        if (size < N::leave(N::one) || size.raw > 36700 << (Length::frac - 10)) // of a ball in the world: 62 / sqrt(3)
             return false;
-        s.fine = block_scale<N>(size, 319);
+        s.fine = block_scale<N>(size, &Blocks::ball);
         s.radius = radius_times(s.fine);
         const uint32_t r = static_cast<uint32_t>(s.radius.raw);
         const int zeros = count_leading_zeros(r);
         if constexpr (NarrowFixed<N>) {
-            const int shift = zeros > 17 ? zeros - 17 : 0;
-            s.inverse_radius = {divide(1, r << shift, 29), shift};
+            constexpr int bits = N::ratio_bits;
+            const int shift = zeros > 32 - bits ? zeros - (32 - bits) : 0;
+            s.inverse_radius = {divide(1, r << shift, 14 + bits), shift};
         } else {
             s.inverse_radius = {divide(1 << 29, r << (zeros - 1), 32), zeros - 1};
         }

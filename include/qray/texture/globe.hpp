@@ -29,7 +29,7 @@ struct Globe {
             // To 14 bits, or 30.
             const Point<N> v = coarse<N>(q, shift) - centre;
             const uint32_t all = absolute(v.x.raw) | absolute(v.y.raw) | absolute(v.z.raw) | 1;
-            const int up = count_leading_zeros(all) - (NarrowFixed<N> ? 18 : 2), down = up < 0 ? -up : 0;
+            const int up = count_leading_zeros(all) - (ShortFixed<N> ? 18 : 2), down = up < 0 ? -up : 0;
             const auto fitted = [up, down](int32_t c) { return up > 0 ? c * (1 << up) : c >> down; };
             return seen(fitted(v.x.raw), fitted(v.y.raw), fitted(v.z.raw));
         } else {
@@ -44,8 +44,8 @@ private:
     constexpr Vec<typename N::Unit> seen(int32_t x, int32_t y, int32_t z) const
     {
         constexpr uint32_t half = uint32_t{1} << 31;
-        const uint32_t up = half / 2 + static_cast<uint32_t>(arc_sine<NarrowFixed<N>>(x, y, z)); // to half: the top row
-        return texels.at(half + arc_tangent2<NarrowFixed<N>>(x, z), (up < half ? up : half - 1) << 1);
+        const uint32_t up = half / 2 + static_cast<uint32_t>(arc_sine<ShortFixed<N>>(x, y, z)); // to half: the top row
+        return texels.at(half + arc_tangent2<ShortFixed<N>>(x, z), (up < half ? up : half - 1) << 1);
     }
 };
 

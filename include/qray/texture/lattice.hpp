@@ -74,7 +74,8 @@ struct LatticeAxis<N> {
 
     constexpr Cell<N> cell(const Point<N>& q) const
     {
-        const int32_t p = row_x * q.x.raw + row_y * q.y.raw + row_z * q.z.raw + offset;
+        using Unit = typename N::Unit;
+        const int32_t p = N::dot(q.x, q.y, q.z, Unit{row_x}, Unit{row_y}, Unit{row_z}).raw + offset;
         const uint32_t inside = static_cast<uint32_t>(p) << (32 - frac) >> (32 - N::Unit::frac);
         return {static_cast<uint32_t>(p >> frac) + static_cast<uint32_t>(whole), {static_cast<int32_t>(inside)}};
     }
@@ -84,16 +85,16 @@ struct LatticeAxis<N> {
         constexpr int32_t limit = int32_t{1} << 16;
         const Cell<N> c = cell(q);
         const int32_t index = static_cast<int32_t>(c.index);
-        return index >= limit ? limit << 14 : index < -limit ? -limit * (1 << 14) : index * (1 << 14) + c.inside.raw;
+        return index >= limit ? limit << 14 : index < -limit ? -limit * (1 << 14) : index * (1 << 14) + (c.inside.raw >> (N::Unit::frac - 14));
     }
     constexpr typename N::Unit clamped(const Point<N>& q) const
     {
         const int32_t p = bounded(q);
-        return p > 0 ? (p < N::one.raw ? typename N::Unit{p} : N::one) : N::zero;
+        return p > 0 ? (p < 1 << 14 ? typename N::Unit{p << (N::Unit::frac - 14)} : N::one) : N::zero;
     }
     static constexpr Cell<N> split(uint32_t p)
     {
-        return {p >> 14, typename N::Unit{static_cast<int32_t>(p & 0x3fff)}};
+        return {p >> 14, typename N::Unit{static_cast<int32_t>(p & 0x3fff) << (N::Unit::frac - 14)}};
     }
 };
 

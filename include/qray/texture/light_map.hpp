@@ -62,7 +62,8 @@ struct LightSteps<N> {
     int32_t row_x, row_y, row_z, offset, shift; // in 2^-(8 + shift)
     constexpr int32_t operator()(const Point<N>& q) const
     {
-        return (row_x * q.x.raw + row_y * q.y.raw + row_z * q.z.raw + offset) >> shift;
+        using Unit = typename N::Unit;
+        return (N::dot(q.x, q.y, q.z, Unit{row_x}, Unit{row_y}, Unit{row_z}).raw + offset) >> shift;
     }
 };
 

@@ -40,7 +40,7 @@ struct Texels {
 private:
     static constexpr uint32_t place(uint32_t part, uint32_t size)
     {
-        if constexpr (NarrowFixed<N>)
+        if constexpr (ShortFixed<N>)
             return (part >> 18) * size >> 14;
         else
             return mul_high(part, size);

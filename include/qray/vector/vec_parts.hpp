@@ -5,6 +5,7 @@
 #include "../number/lanes.hpp"
 #include "../number/floating.hpp"
 #include "../number/q16.hpp"
+#include "../number/q24.hpp"
 #include "../number/q32.hpp"
 
 namespace qray {

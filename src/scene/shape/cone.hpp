@@ -51,12 +51,15 @@ struct Host<Cone> : HostOfShape {
                 r > off && rho > 0 ? (radial * (1 / rho) - axis * growth) * cosine : Vec3d{}};
     }
 
-    // How large its ball may be in the moved and scaled scene: see cone.hpp, q16.hpp.
+    // Its ball is block-scaled, at least by 2^least.
     template <class N>
-    static constexpr double world = NarrowFixed<N> ? 18 : 40;
-
-    template <class N>
-    static double range(const Object& o) { return reach(o) / world<N>; }
+    static double range(const Object& o)
+    {
+        if constexpr (N::is_fixed)
+            return ldexp(reach(o), N::Length::frac + N::blocks.least) / N::blocks.cone;
+        else
+            return reach(o) / 40;
+    }
 
     template <class B>
     static void convert(B& b, const Object& o, uint32_t place)
@@ -68,7 +71,7 @@ struct Host<Cone> : HostOfShape {
         if (b.vanishes(b.length(widest(o))) || b.vanishes(b.length(height)))
             return b.leave_out(o);
         const Vec3d e1 = unit_across(axis), e2 = cross(axis, e1);
-        const int fine = b.fine_for(reach(o), world<N>);
+        const int fine = b.fine_for(reach(o), &Blocks::cone);
         const double up = ldexp(1, fine);
         b.s.cones.push() = {b.point(middle),
                             Convert<N>::direction(e1),

@@ -29,15 +29,13 @@ struct Host<Sphere> : HostOfShape {
         return {true, distance - o.ra, unit(p - o.a)};
     }
 
-    static constexpr double world = 31.9; // what a block-scaled radius may be: see q16.hpp
-
     template <class B>
     static void convert(B& b, const Object& o, uint32_t place)
     {
         using N = typename B::Number;
         if (b.too_small_to_leave(b.length(o.ra)))
             return b.leave_out(o);
-        const int fine = b.fine_for(o.ra, world);
+        const int fine = b.fine_for(o.ra, &Blocks::ball);
         const auto r = b.length(ldexp(o.ra, fine));
         b.s.spheres.push() = {b.point(o.a), r, Convert<N>::inverse(r), fine, make_tag(place, o.fill),
                               Convert<N>::rounded(b.frame.point(o.a), fine)};
