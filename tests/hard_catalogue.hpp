@@ -76,6 +76,8 @@ constexpr int fine_steps = 24;
 template <>
 inline constexpr int fine_steps<q16> = 10;
 template <>
+inline constexpr int fine_steps<q24> = 16;
+template <>
 inline constexpr int fine_steps<Float> = 22;
 template <class N>
 constexpr int steps_at_5 = fine_steps<N>;
@@ -87,6 +89,8 @@ template <class N>
 constexpr int unit_bits = 30; // of a component of a unit vector
 template <>
 inline constexpr int unit_bits<q16> = 14;
+template <>
+inline constexpr int unit_bits<q24> = 20;
 template <>
 inline constexpr int unit_bits<Float> = 23;
 
@@ -134,8 +138,8 @@ struct Make {
             return Length(1) / r;
         } else {
             const int zeros = count_leading_zeros(static_cast<uint32_t>(r.raw));
-            const int shift = !NarrowFixed<N> ? zeros - 1 : zeros > 17 ? zeros - 17 : 0;
-            const int64_t mantissa = (int64_t{1} << ((NarrowFixed<N> ? 29 : 61) - shift)) / r.raw;
+            const int room = ShortFixed<N> ? 17 : NarrowFixed<N> ? 14 : 1, shift = zeros > room ? zeros - room : 0;
+            const int64_t mantissa = (int64_t{1} << ((NarrowFixed<N> ? 46 - room : 61) - shift)) / r.raw;
             return {mantissa < INT32_MAX ? static_cast<int32_t>(mantissa) : INT32_MAX, shift};
         }
     }
@@ -1112,7 +1116,9 @@ QRAY_CASE(NormaliseOfZeroIsRefused)
 QRAY_CASE(RootsOfZeroAndOfTheLargestArea)
 {
     QRAY_NAMES;
-    for (int64_t root : List{0, 1, 2, 11, 45, NarrowFixed<N> ? 45 : 120}) { // q16 squares no more than 46340 steps
+    for (int64_t root : List{0, 1, 2, 5, 11, 45, 120}) {
+        if (root > (ShortFixed<N> ? 45 : NarrowFixed<N> ? 5 : 120)) // q16 squares no more than 46340 steps, q24 370727
+            continue;
         Length r = number<Length>(root);
         hide(r);
         QRAY_HOLDS(N::sqrt(r * r) == r);

@@ -8,8 +8,7 @@
 #include <string>
 #include <type_traits>
 
-#include <qray/vector/ray.hpp>
-
+#include "../src/scene/numbers.hpp"
 #include "random.hpp"
 #include "reals.hpp"
 
@@ -21,20 +20,17 @@ namespace qray::test {
 
 #ifdef QRAY_LANES_ALONE // tests of lanes: those that have them
 using NumberSystems = ::testing::Types<q32, Float>;
+using AllNumberSystems = NumberSystems;
 #else
 using NumberSystems = ::testing::Types<q16, q32, Float, Double>;
+using AllNumberSystems = ::testing::Types<q16, q24, q32, Float, Double>; // of tests that know q24's bounds
 #endif
 
 struct SystemNames {
     template <class N>
     static std::string GetName(int)
     {
-        if constexpr (std::is_same_v<N, Float>)
-            return "float";
-        else if constexpr (std::is_same_v<N, Double>)
-            return "double";
-        else
-            return NarrowFixed<N> ? "q16" : "q32";
+        return scene::number_name<N>();
     }
 };
 
@@ -106,8 +102,9 @@ struct make {
     static typename N::Scale inverse(typename N::Length r)
     {
         if constexpr (NarrowFixed<N>) { // 16 bits
-            const int zeros = __builtin_clz(static_cast<uint32_t>(r.raw)), shift = zeros > 17 ? zeros - 17 : 0;
-            return {static_cast<int32_t>(std::lrint(std::ldexp(1, 29 - shift) / r.raw)), shift};
+            constexpr int bits = ShortFixed<N> ? 15 : 18;
+            const int zeros = __builtin_clz(static_cast<uint32_t>(r.raw)), shift = zeros > 32 - bits ? zeros - (32 - bits) : 0;
+            return {static_cast<int32_t>(std::lrint(std::ldexp(1, 14 + bits - shift) / r.raw)), shift};
         } else if constexpr (N::is_fixed) {
             const int shift = __builtin_clz(static_cast<uint32_t>(r.raw)) - 1;
             const double mantissa = std::ldexp(1, 61 - shift) / r.raw;

@@ -26,7 +26,9 @@ template <class N>
 int32_t fine_for(double size)
 {
     int32_t fine = 0;
-    if constexpr (N::is_fixed)
+    if constexpr (NarrowFixed<N> && !ShortFixed<N>)
+        return block_scale<N>(make<N>::length(size), &Blocks::cone);
+    else if constexpr (N::is_fixed)
         while (fine < 10 && std::ldexp(size, fine + 1) <= 32)
             fine++;
     return fine;

@@ -26,6 +26,7 @@ SANITIZED = os.path.abspath("build/sanitized/qray")
 AVX2 = platform.machine() == "x86_64" and {"avx2", "fma", "bmi1", "bmi2"} <= set(open("/proc/cpuinfo").read().split())
 VARIANTS = sorted(glob.glob(os.path.abspath("build/variants/*/qray")))
 SCENES = sorted(glob.glob(os.path.abspath("scenes/*.nff")))
+NUMBERS = ("q16", "q24", "q32", "float", "double")
 
 # The eye looks along -z at the plane z = 0 from a distance of 1; with an angle of 90 degrees the picture spans -1 to 1.
 VIEW = "v from 0 0 1 at 0 0 0 up 0 1 0 angle 90 hither 1 resolution {} {}\n"
@@ -157,7 +158,7 @@ class Options(Cli):
 
     # White left of x = -0.1, in a picture of one pixel: all samples left of the middle, but for three of 64 columns.
     def test_samples(self):
-        for number in ("q16", "q32", "float", "double"):
+        for number in NUMBERS:
             for samples, level in ((1, 0), (4, 128), (16, 128), (9, 85), (4096, 116)):
                 text = view() + WHITE + quad(-9, -0.1)
                 self.assertEqual(self.pixels(text, "-n", number, "-r", samples), bytes([level] * 3), samples)
@@ -232,7 +233,7 @@ class Options(Cli):
         # A unit square with a corner 1/4 above it, across a box of a diagonal of 1.436; twice.
         bent = "p 4 0 0 0 1 0 0 1 1 0 0 1 0.25\n"
         self.write("w.nff", view() + bent + "p 4 0 0 0 1 0 0 1 1 0 0 1 0.01\n" + bent)
-        for number in ("q16", "q32", "float", "double"):
+        for number in NUMBERS:
             self.assertEqual(self.run_qray("w.nff", "-n", number)[2],
                              "w.nff:2: warning: a polygon with a corner 0.25 off its plane, 17.4 % of its size; "
                              "2 objects in all\n")

@@ -10,7 +10,7 @@ import subprocess
 import unittest
 
 FOLDER = "build/compile"
-NUMBERS = ["q16", "q32", "float", "double"]
+NUMBERS = ["q16", "q24", "q32", "float", "double"]
 FLAGS = ["-std=c++20", "-O1", "-Wall", "-Wextra", "-Wconversion", "-Wsign-conversion", "-Wshadow",
          "-Wdouble-promotion", "-Werror", "-ffp-contract=off", "-Iinclude"]
 PROGRAM = """#include <qray/qray.hpp>

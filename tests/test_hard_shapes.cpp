@@ -248,7 +248,7 @@ TYPED_TEST(HardShapes, CylinderSeenATenthousandthOffItsAxis)
         const auto ray = M::ray({random.uniform(-0.5, 0.5) * r, random.uniform(-0.5, 0.5) * r, -20},
                                 {lean * std::cos(turn), lean * std::sin(turn), 1});
         Quad expected = 0;
-        const Quad radius = static_cast<Quad>(value(s.shape.rho0)) / static_cast<Quad>(1 << s.shape.fine);
+        const Quad radius = static_cast<Quad>(std::ldexp(value(s.shape.rho0), -s.shape.fine));
         const bool meets = meets_cone(exact(ray.origin), exact(ray.direction), radius, 0, 30, expected);
         ASSERT_EQ(s.hit(ray, limit, t), meets);
         if (meets) {

@@ -29,7 +29,7 @@ LANED = {"number/lanes", "vector/vec_lanes"}
 # Where these hold anything, on the processors that have such registers.
 LANES = ["-mavx2", "-mfma", "-mbmi", "-mbmi2", "-mlzcnt"] if platform.machine() == "x86_64" else []
 
-SYSTEMS = ["q16", "q32", "Float", "Double"]
+SYSTEMS = ["q16", "q24", "q32", "Float", "Double"]
 # Where floating point may be spoken of: number systems that are it, square roots for them, bytes from their samples, and the tree,
 # which q32 only uses where there is a floating-point unit, and vectors in such a unit's registers.
 FLOATING = {"number/root", "number/floating", "scene/tree", "scene/outline", "picture/sampler", "number/lanes", "vector/vec_lanes"}
@@ -258,7 +258,7 @@ def test_object(folder, system):
 
 def test_integers_alone(folder):
     """Without the tree fixed point takes no floating-point register: the compiler is forbidden to use one."""
-    for system in ["q16", "q32"]:
+    for system in ["q16", "q24", "q32"]:
         path = kernel(folder, system, "[] { auto e = qray::everything(64); e.tree = false; return e; }()")
         result = run("g++", *FLAGS, "-O1", "-mgeneral-regs-only", "-c", path, "-o", os.path.join(folder, "integers.o"))
         check(f"a render in {system} without a tree has no floating point",

@@ -39,6 +39,7 @@ QRAY_FOR(q32);
 QRAY_FOR(Float);
 #ifndef QRAY_LANES_ALONE // for tests of lanes, which these have not
 QRAY_FOR(q16);
+QRAY_FOR(q24);
 QRAY_FOR(Double);
 #endif
 #undef QRAY_FOR

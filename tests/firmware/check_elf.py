@@ -41,6 +41,7 @@ DOUBLE = re.compile(
     r"|__(fix(uns)?df[sd]i|float(un|uns)?[sd]idf|extendsfdf2|truncdfsf2)$")
 HELPERS = {
     "q16": [INTEGER],
+    "q24": [INTEGER],
     "q32": [INTEGER],
     "float": [INTEGER, SINGLE],
     "double": [INTEGER, SINGLE, DOUBLE],

@@ -1,6 +1,6 @@
 """The scenes of scenes/ on the boards: the desktop's bytes, sound linked files, and budgets kept. From the
 top of the repository: python3 tests/firmware/test_scenes.py; with --all, every scene on every board in q16,
-q32 and float."""
+q24, q32 and float."""
 
 import concurrent.futures
 import glob
@@ -34,14 +34,14 @@ def budgets():
 
 def images():
     """What is built and run: all that has a budget, each scene in q32 on the microbit, and in q32 on another board or in
-    float or q16 on one, by turns."""
+    float, q16 or q24 on one, by turns."""
     chosen = set(budgets())
     for k, scene in enumerate(scenes()):
         chosen.add(("microbit", scene, "q32"))
         chosen.add((BOARDS[1 + k // 2 % 4], scene, "q32") if k % 2 == 0 else
-                   (BOARDS[k // 2 % 5], scene, ("float", "q16")[k // 2 % 2]))
+                   (BOARDS[k // 2 % 5], scene, ("float", "q16", "q24")[k // 2 % 3]))
         if ALL:
-            chosen |= {(board, scene, number) for board in BOARDS for number in ("q16", "q32", "float")}
+            chosen |= {(board, scene, number) for board in BOARDS for number in ("q16", "q24", "q32", "float")}
     return sorted(chosen)
 
 

@@ -107,6 +107,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size)
     draw<Float>(d, settings);
 #ifndef QRAY_LANES_ALONE
     draw<q16>(d, settings);
+    draw<q24>(d, settings);
     draw<Double>(d, settings);
 #endif
     return 0;

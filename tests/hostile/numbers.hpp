@@ -82,13 +82,19 @@ Vec3<R> exact3(const qray::Vec<T>& v)
     return {exact<R>(v.x), exact<R>(v.y), exact<R>(v.z)};
 }
 
+template <class R>
+R two_to(int power)
+{
+    return power >= 0 ? R(int64_t{1} << power) : R(1) / R(int64_t{1} << -power);
+}
+
 // The centre of a curved shape, of which `point` is the rounding.
 template <class R, class N, class Shape>
 Vec3<R> exact_centre(const qray::Point<N>& point, [[maybe_unused]] const Shape& shape)
 {
     Vec3<R> c = exact3<R>(point);
     if constexpr (requires { shape.rounded.x; }) {
-        const R step = R(1) / (R(int64_t{1} << N::Length::frac) * R(1 << shape.fine));
+        const R step = R(1) / (R(int64_t{1} << N::Length::frac) * two_to<R>(shape.fine));
         c = c - Vec3<R>{R(shape.rounded.x), R(shape.rounded.y), R(shape.rounded.z)} * step;
     }
     return c;

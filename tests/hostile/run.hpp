@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "scene/numbers.hpp"
 #include "trial.hpp"
 
 namespace hostile {
@@ -28,10 +29,7 @@ struct Row {
 template <class N>
 constexpr const char* system_name()
 {
-    if constexpr (N::is_fixed)
-        return N::Unit::frac == 30 ? "q32" : "q16";
-    else
-        return sizeof(typename N::Length) == 4 ? "float" : "double";
+    return qray::scene::number_name<N>();
 }
 
 template <class N, template <class> class Trial, template <class, template <class> class> class Beside = Nobody,
@@ -89,10 +87,9 @@ void rows_in(const Selection& selection, uint64_t rays, F f)
 template <template <class, template <class> class> class Beside = Nobody, class F>
 void each_row(const Selection& selection, uint64_t rays, F f)
 {
-    rows_in<qray::q16, Beside>(selection, rays, f);
-    rows_in<qray::q32, Beside>(selection, rays, f);
-    rows_in<qray::Float, Beside>(selection, rays, f);
-    rows_in<qray::Double, Beside>(selection, rays, f);
+#define QRAY_NUMBER(Type, name) rows_in<qray::Type, Beside>(selection, rays, f);
+    QRAY_NUMBERS(QRAY_NUMBER)
+#undef QRAY_NUMBER
 }
 
 } // namespace hostile

@@ -34,7 +34,9 @@ int main(int argc, char** argv)
         const std::string option = argv[i];
         (option == "--scenes" ? scenes : seed) = std::strtoull(argv[i + 1], nullptr, 10);
     }
-    const uint64_t faults = draw_both<qray::q16>("q16", seed, scenes) + draw_both<qray::q32>("q32", seed, scenes)
-        + draw_both<qray::Float>("float", seed, scenes) + draw_both<qray::Double>("double", seed, scenes);
+    uint64_t faults = 0;
+#define QRAY_NUMBER(Type, name) faults += draw_both<qray::Type>(#name, seed, scenes);
+    QRAY_NUMBERS(QRAY_NUMBER)
+#undef QRAY_NUMBER
     return faults == 0 ? 0 : 1;
 }

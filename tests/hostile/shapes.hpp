@@ -121,7 +121,7 @@ struct SphereTrial {
     Meetings<R> meet(const qray::Ray<M>& ray) const
     {
         const Vec3<R> d = exact3<R>(ray.direction), v = exact_centre<R, N>(shape.centre, shape) - exact3<R>(ray.origin);
-        const R r = exact<R>(shape.radius) / R(1 << shape.fine), d2 = dot(d, d), b = dot(v, d) / d2;
+        const R r = exact<R>(shape.radius) / two_to<R>(shape.fine), d2 = dot(d, d), b = dot(v, d) / d2;
         const Vec3<R> p = v - d * b;
         const R rest = r * r - dot(p, p);
         Meetings<R> m;
@@ -136,7 +136,7 @@ struct SphereTrial {
     Wide outside(const Vec3<Wide>& p) const
     {
         return length(p - exact_centre<Wide, N>(shape.centre, shape))
-            - exact<Wide>(shape.radius) / Wide(1 << shape.fine);
+            - exact<Wide>(shape.radius) / two_to<Wide>(shape.fine);
     }
 };
 
@@ -289,7 +289,7 @@ struct ConeTrial {
         const Vec3<R> d = exact3<R>(ray.direction), v = exact_centre<R, N>(shape.middle, shape) - exact3<R>(ray.origin);
         const R b = dot(v, d) / dot(d, d);
         const Vec3<R> o = d * b - v;
-        const R oz = dot(o, a), dz = dot(d, a), scale = R(1 << shape.fine);
+        const R oz = dot(o, a), dz = dot(d, a), scale = two_to<R>(shape.fine);
         const R rho = exact<R>(shape.rho0) / scale + s * oz;
         const Vec3<R> op = o - a * oz, dp = d - a * dz;
         const R aa = c * c * dot(dp, dp) - s * s * dz * dz, bb = c * c * dot(op, dp) - rho * s * dz;
@@ -318,7 +318,7 @@ struct ConeTrial {
         const Vec3<Wide> w = p - exact_centre<Wide, N>(shape.middle, shape);
         const Wide z = dot(w, a);
         return exact<Wide>(shape.cosine) * length(w - a * z)
-            - (exact<Wide>(shape.rho0) / Wide(1 << shape.fine) + exact<Wide>(shape.sine) * z);
+            - (exact<Wide>(shape.rho0) / two_to<Wide>(shape.fine) + exact<Wide>(shape.sine) * z);
     }
 };
 

@@ -16,6 +16,8 @@ struct Beside<qray::q16> {
     using T = Fixed<16>;
 };
 template <>
+struct Beside<qray::q24> : Beside<qray::q16> {};
+template <>
 struct Beside<qray::q32> {
     using T = Fixed<24>;
 };

@@ -149,10 +149,9 @@ int main(int argc, char** argv)
         i++;
     }
     if (instructions) {
-        costs<qray::q16>(selection.seed);
-        costs<qray::q32>(selection.seed);
-        costs<qray::Float>(selection.seed);
-        costs<qray::Double>(selection.seed);
+#define QRAY_NUMBER(Type, name) costs<qray::Type>(selection.seed);
+        QRAY_NUMBERS(QRAY_NUMBER)
+#undef QRAY_NUMBER
         return 0;
     }
     std::printf("shape,number,regime,form,rays,wrong,worst error,mean error,rebounds,self-hits,leaks\n");

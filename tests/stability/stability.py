@@ -23,7 +23,7 @@ REGIMES = ["ordinary", "small and far", "grazing", "needle"]
 FIGURES = ["polygon", "patch"]  # which may be needles
 SHAPES = ["sphere", "plane", "disc", "cylinder", "cone"] + FIGURES
 # The number systems, and the arithmetic of the textbook beside each.
-NUMBERS = {"q16": "Q16.16", "q32": "Q8.24", "float": "float", "double": "double"}
+NUMBERS = {"q16": "Q16.16", "q24": "Q16.16", "q32": "Q8.24", "float": "float", "double": "double"}
 FORMS = ["ours", "textbook"]
 
 
