@@ -57,6 +57,18 @@ std::string objects(Random& random, int count, double spread, double size)
     return text;
 }
 
+// Functions of their own, so that what is asked is compiled once for all who ask it.
+template <class N, Effects E>
+[[gnu::noinline]] bool found(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit)
+{
+    return nearest(scene, ray, hit);
+}
+template <class N, Effects E>
+[[gnu::noinline]] bool blocked(const Scene<N, E>& scene, const Ray<N>& ray, typename N::Length distance)
+{
+    return light_blocked(scene, ray, distance);
+}
+
 template <class N, Over tree>
 void expect_same_hits(uint64_t seed, int count, double size, int rays)
 {
@@ -76,8 +88,8 @@ void expect_same_hits(uint64_t seed, int count, double size, int rays)
         // At an object's place, or anywhere.
         const auto ray = make<N>::ray(from, i % 2 == 0 ? random.direction() : random.point(spread * k) - from);
         Hit<N> a{}, b{};
-        const bool hit = nearest(with, ray, a);
-        ASSERT_EQ(hit, nearest(without, ray, b)) << count << " objects, ray " << i;
+        const bool hit = found(with, ray, a);
+        ASSERT_EQ(hit, found(without, ray, b)) << count << " objects, ray " << i;
         hits += hit;
         if (hit) {
             ASSERT_EQ(value(a.t), value(b.t)) << count << " objects, ray " << i;
@@ -85,7 +97,7 @@ void expect_same_hits(uint64_t seed, int count, double size, int rays)
             ASSERT_EQ(a.index, b.index);
         }
         const auto distance = make<N>::length(random.uniform(1, 20));
-        ASSERT_EQ(light_blocked(with, ray, distance), light_blocked(without, ray, distance))
+        ASSERT_EQ(blocked(with, ray, distance), blocked(without, ray, distance))
             << count << " objects, ray " << i;
     }
     EXPECT_GT(hits, 0) << count;
@@ -129,7 +141,7 @@ TYPED_TEST(TreeTest, HitsAreTheSameAmongTinyObjects)
             const Vec3 centre = value(with.spheres[i].centre);
             const Vec3 from = random.point(30);
             Hit<N> hit{};
-            ASSERT_TRUE(nearest(with, make<N>::ray(from, centre - from), hit)) << i;
+            ASSERT_TRUE(found(with, make<N>::ray(from, centre - from), hit)) << i;
             EXPECT_LE(value(hit.t), length(centre - from) + (NarrowFixed<N> ? 0.05 : 1e-3));
         }
     };
@@ -230,10 +242,10 @@ void expect_hostile_rays_hit_the_same()
         const auto inside = [](double v) { return std::clamp(v, -31.0, 31.0); };
         const auto ray = make<N>::ray({inside(from.x), inside(from.y), inside(from.z)}, d);
         Hit<N> a{}, b{};
-        const bool hit = nearest(with, ray, a);
-        const bool same = hit == nearest(without, ray, b) && (!hit || (value(a.t) == value(b.t) && a.tag == b.tag));
+        const bool hit = found(with, ray, a);
+        const bool same = hit == found(without, ray, b) && (!hit || (value(a.t) == value(b.t) && a.tag == b.tag));
         const auto distance = hit && i % 2 ? a.t : make<N>::length(random.uniform(0, 60));
-        const bool as_dark = light_blocked(with, ray, distance) == light_blocked(without, ray, distance);
+        const bool as_dark = blocked(with, ray, distance) == blocked(without, ray, distance);
         hits += hit;
         ASSERT_TRUE(same && as_dark) << "ray " << i << numbers({from.x, from.y, from.z, d.x, d.y, d.z});
     }
@@ -257,7 +269,7 @@ TYPED_TEST(TreeTest, CoincidentObjectsAreToldApartByTheirPlace)
         ASSERT_TRUE(loaded<N>(text, compiled(tree == Over::compiled)));
         const auto with = storage<N>().template view<shapes(tree)>();
         Hit<N> hit{};
-        ASSERT_TRUE(nearest(with, make<N>::ray(value(with.camera.eye), {0, 0, -1}), hit));
+        ASSERT_TRUE(found(with, make<N>::ray(value(with.camera.eye), {0, 0, -1}), hit));
         EXPECT_EQ(hit.tag.place(), 1u);
     };
     find_first.template operator()<Over::desktop>();
@@ -358,8 +370,8 @@ TYPED_TEST(TreeTest, TheOtherEndOfAShortChordIsFound)
         ray.from = ball.tag;
         ray.outward = false;
         Hit<N> a{}, b{};
-        EXPECT_TRUE(nearest(without, ray, b));
-        ASSERT_TRUE(nearest(with, ray, a)) << i;
+        EXPECT_TRUE(found(without, ray, b));
+        ASSERT_TRUE(found(with, ray, a)) << i;
         EXPECT_EQ(value(a.t), value(b.t));
     }
 }
@@ -372,7 +384,7 @@ TYPED_TEST(TreeTest, NoneEndsAtOnce)
     EXPECT_EQ(storage<N>().entries.count, 0u);
     const auto scene = storage<N>().template view<shapes(Over::compiled)>();
     Hit<N> hit{};
-    EXPECT_FALSE(nearest(scene, make<N>::ray(value(scene.camera.eye), {0, 0, -1}), hit));
+    EXPECT_FALSE(found(scene, make<N>::ray(value(scene.camera.eye), {0, 0, -1}), hit));
 }
 
 } // namespace
