@@ -74,7 +74,7 @@ UNIT    := $(patsubst tests/%.cpp,%,$(wildcard tests/test_*.cpp))
 FAST    := test_hostile test_math test_meshes test_metamorphic
 SCRIPTS := $(wildcard tests/test_*.py tests/test_*.sh tests/*/test_*.py tests/*/test_*.sh)
 TESTS      = $(SCRIPTS) $(addprefix build/tests/,$(FAST)) $(addprefix build/sanitized/tests/,$(UNIT))
-TEST_NEEDS = build/qray build/sanitized/qray build/oracle $(VARIANTS:%=build/variants/%/qray)
+TEST_NEEDS = build/qray build/sanitized/qray build/oracle
 TEST_LIBS := -lgtest -lgtest_main -lquadmath -pthread
 
 build/tests/%: build/obj/tests/%.o build/obj/tests/tracer.o $(LIBRARY)
@@ -111,16 +111,6 @@ build/sanitized/obj/gtest.hpp.gch: USED = $(SANITIZE) -O0
 	@mkdir -p $(@D)
 	@echo '#include <gtest/gtest.h>' > $(@:.gch=)
 	@$(CXX) $(USED) -x c++-header $(@:.gch=) -o $@
-
-# The same command with its fixed point made in other ways, for the test that their bytes are the same.
-VARIANTS := g++_-O0 g++_-O3_native clang++_-O0 clang++_-O2 clang++_-O3_native # '=' in a target is none to make
-FIXED    := $(patsubst src/cli/%.cpp,%.o,$(wildcard src/cli/kernel_q*.cpp))
-build/variants/%/qray: $(addprefix build/variants/%/,$(FIXED)) $(filter-out $(addprefix %/,$(FIXED)),$(PLAIN))
-	@$(CXX) $(STATIC) $^ -pthread -o $@
-build/variants/%.o: build/obj/flags
-	@echo "  compile src/cli/$(*F).cpp with $(subst _, ,$(*D))"
-	@mkdir -p $(@D)
-	@$(subst native,-march=native,$(subst _, ,$(*D))) $(COMMON) $(PROGRAM) -c src/cli/$(*F).cpp -o $@
 
 build/oracle: tests/oracle/oracle.cpp
 	@echo "  compile $<"
