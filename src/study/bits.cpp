@@ -93,6 +93,11 @@ void print_list(int count, F f)
 
 // What a number system reaches, and what its widths say: all steps rounded at once, and each alone.
 template <class N>
+    requires(!N::is_fixed)
+void print_number(cli::Number)
+{
+}
+template <class N>
 void print_number(cli::Number number)
 {
     const cli::Renderer& renderer = *cli::renderers[static_cast<int>(number)];
@@ -154,8 +159,9 @@ int run(int argc, char** argv)
     printf("{\"levels\": %zu, ", truth.size());
     print_steps();
     printf(", \"numbers\": {");
-    print_number<q16>(cli::Number::q16);
-    print_number<q32>(cli::Number::q32);
+#define QRAY_NUMBER(Type, name) print_number<Type>(cli::Number::Type);
+    QRAY_NUMBERS(QRAY_NUMBER)
+#undef QRAY_NUMBER
     puts("}}");
     return 0;
 }

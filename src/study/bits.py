@@ -15,7 +15,7 @@ import figures
 import pictures
 import runs
 from programs import environment, fail, message_of, output_of
-from settings import BOARDS, board_facts
+from settings import BOARDS, board_facts, fixed_numbers
 from text import FIGURES, count, listed, table
 
 sys.path.insert(0, "src/boards/common")
@@ -222,5 +222,5 @@ round (`cornell`) is no step.
 {numbers_table(b)}"""
 
 
-REPORTS = {"bits": (report, lambda: ["figures/steps.svg", "| all together |"] + [f"{n} reaches" for n in ("q16", "q32")]
+REPORTS = {"bits": (report, lambda: ["figures/steps.svg", "| all together |"] + [f"{n} reaches" for n in fixed_numbers()]
                     + [f"| `{scene}` |" for scene in scenes()])}

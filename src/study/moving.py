@@ -6,12 +6,12 @@ import math
 import os
 
 import runs
+from settings import fixed_numbers
 from text import count, table
 
 FOLDER = "build/study/moving"
 SCENE, WITHIN, TIMES, FRAMES = f"{FOLDER}/moves.nff", "-7,-1,-7,7,7,7", 16, 4
 BOARDS = ["microbit", "mps2_an385", "rv32_virt"]
-NUMBERS = ["q16", "q32"]
 TURN = "motion.about(scene::view.at).turn(scene::view.up, qray::part_of_turn(frame * {times} + i, 97));"
 CORNERS = ("qray::Corners<N>{{scene::first_vertices.data, scene::first_normals.data}}, motion, scene::{0}[0], "
            "qray::MovedCorners<N>{{scene::vertices.data, scene::normals.data}}")
@@ -67,7 +67,7 @@ def report():
     os.makedirs(FOLDER, exist_ok=True)
     with open(SCENE, "w") as file:
         file.write(scene())
-    columns = [(board, number) for board in BOARDS for number in NUMBERS]
+    columns = [(board, number) for board in BOARDS for number in fixed_numbers()]
 
     def run(board, number, what, size="1x1"):
         return runs.Run(board, SCENE, number, size, ANIMATION=animation(what), FRAMES=FRAMES, WITHIN=WITHIN)

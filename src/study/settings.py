@@ -26,6 +26,11 @@ def numbers():
     return told()["numbers"]
 
 
+def fixed_numbers():
+    """Those in fixed point: Q-formats."""
+    return [n for n in numbers() if n.startswith("q")]
+
+
 @functools.cache
 def boards():
     """The boards that make knows."""

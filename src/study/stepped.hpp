@@ -53,7 +53,8 @@ constexpr double significant(double v, int bits, double like)
 // What is measured at a time. Spheres and cones are block-scaled in fixed point; in a plain table they are not.
 struct Widths {
     int bits[steps];
-    bool block_scaled = false;
+    const Blocks* blocks = nullptr; // of Lengths with `length` bits
+    int length = 0;
 
     constexpr explicit Widths(int all = exact)
     {
@@ -76,7 +77,8 @@ constexpr Widths widths_of(int exposure)
 #define QRAY_WIDTH(name, quantity, what) w[Step::name] = quantity;
     QRAY_STEPS(QRAY_WIDTH)
 #undef QRAY_WIDTH
-    w.block_scaled = true;
+    w.blocks = &N::blocks;
+    w.length = Length;
     return w;
 }
 
@@ -151,17 +153,17 @@ struct Stepped : Double {
     }
     QRAY_INLINE static double colour(double v) { return keep<Step::colour>(v); }
 
-    QRAY_INLINE static double fine(double v, int32_t by) { return v * static_cast<double>(1 << by); }
+    QRAY_INLINE static double fine(double v, int32_t by) { return by < 0 ? v / (1 << -by) : v * (1 << by); }
     QRAY_INLINE static double fine_sub(double a, double b, int32_t by)
     {
         return keep<Step::perpendicular>(fine(a - b, by));
     }
     QRAY_INLINE static double coarse(double v, int32_t by, const char* file = __builtin_FILE())
     {
-        v /= static_cast<double>(1 << by);
+        v = fine(v, -by);
         return is_in(file, "vector/") ? keep<Step::point>(v) : keep<Step::t>(v);
     }
-    QRAY_INLINE static double coarse_above(double v, int32_t by) { return v / static_cast<double>(1 << by) + 0.125; }
+    QRAY_INLINE static double coarse_above(double v, int32_t by) { return fine(v, -by) + 0.125; }
 
     QRAY_INLINE static double sqrt(double a) { return keep<Step::root>(Double::sqrt(a)); }
     QRAY_INLINE static double root(double a) { return keep<Step::root>(Double::root(a)); }
@@ -318,10 +320,14 @@ inline Vec<double> Builder<study::Stepped>::surface(const Vec3d& c)
     return study::keep<study::Step::colour>(Vec<double>{c.x, c.y, c.z});
 }
 template <>
-inline int Builder<study::Stepped>::fine_for(double size, double most) const
+inline int Builder<study::Stepped>::fine_for(double size, int32_t Blocks::*within) const
 {
-    int fine = 0;
-    while (study::widths.block_scaled && fine < 10 && ldexp(size * frame.scale + 1.0 / 16, fine + 1) <= most)
+    const Blocks* const blocks = study::widths.blocks;
+    if (blocks == nullptr)
+        return 0;
+    const double with_slack = ldexp(size * frame.scale, study::widths.length) + blocks->slack;
+    int fine = blocks->least;
+    while (fine < blocks->most && ldexp(with_slack, fine + 1) <= blocks->*within)
         fine++;
     return fine;
 }
