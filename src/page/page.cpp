@@ -67,12 +67,13 @@ constexpr const Kernel* kernels[] = {PAGE_KERNELS};
 #undef PAGE_ONE
 static_assert(std::size(kernels) == std::size(cli::number_names));
 
-scene::Description description;
-scene::Room text, picture;
-scene::Settings settings; // of the picture
+// Without constructors: the linker would have each call from JavaScript run these first.
+constinit scene::Description description{};
+constinit scene::Room text, picture;
+constinit scene::Settings settings; // of the picture
 const Kernel* kernel = nullptr; // of the picture
-cli::Built built;
-cli::RayCounts rays;
+constinit cli::Built built{};
+constinit cli::RayCounts rays;
 
 // The answer: JSON, put together piece by piece. Longer ones are cut off.
 char answer[8192];
@@ -259,7 +260,7 @@ QRAY_EXPORT(comb) uint8_t* comb(uint32_t k)
 }
 
 #if QRAY_EXPLAIN
-cli::Explanation explanations[2];
+constinit cli::Explanation explanations[2]{};
 const char* explained[2];
 
 // Why a pixel of the scene that was built last has its colour, as the first or the second of two.
