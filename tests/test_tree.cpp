@@ -310,6 +310,67 @@ constexpr Effects pictures(Over tree)
     return e;
 }
 
+// A panel that reaches beyond what it lies in: that is crossed at those places alone that it holds, also by a ray almost in
+// its plane, whose line passes inside of it elsewhere.
+template <class N, Over tree>
+void expect_crossed_where_a_panel_lies_in_it(const std::string& others)
+{
+    Random random(5001);
+    const std::string text = "v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3 panel 3 0 0 0 6 0 0 0 6 0\n"
+                             "disc 1 1 0 0 0 1 2 p 3 -3 -3 0 -1 -3 0 -3 -1 0 pp 3 -3 1 0 0 0 1 -1 1 0 0 0 1 -3 3 0 0 0 1\n"
+                             "p 4 1 -3 0 3 -3 0 3 -2 0 1 -2 0\n" + others;
+    ASSERT_TRUE(loaded<N>(text, compiled(tree == Over::compiled)));
+    ASSERT_EQ(storage<N>().light_surfaces.count, 4u);
+    for (uint32_t i = 0; i < 4; i++) // as if it lay just before them
+        storage<N>().light_surfaces.data[i].side = 1;
+    const auto scene = storage<N>().template view<pictures(tree)>();
+    const Disc<N>& disc = scene.discs[0];
+    const double scale = value(disc.radius) / 2; // the scene is moved and scaled
+    const Vec3 origin = value(disc.centre) - Vec3{scale, scale, 0};
+    int crossed = 0, seen = 0;
+    for (int i = 0; i < 4000; i++) {
+        const Vec3 place{random.uniform(-6, 6), random.uniform(-6, 6), 0};
+        Vec3 d = random.direction();
+        d.z = std::fabs(d.z) * std::ldexp(1, -(i % 12));
+        const Vec3 from = place - unit(d) * random.uniform(1, 9);
+        const auto ray = make<N>::ray(origin + from * scale, place - from);
+        const auto distance = make<N>::length(length(place - from) * scale);
+        // How far outside of each, negative within.
+        const double x = place.x, y = place.y,
+                     outside[] = {std::hypot(x - 1, y - 1) - 2, std::max({-3 - x, -3 - y, (x + y + 4) / std::sqrt(2)}),
+                                  std::max({-3 - x, 1 - y, (x + y) / std::sqrt(2)}),
+                                  std::max({1 - x, x - 3, -3 - y, y + 2})};
+        const double nearest_edge = *std::min_element(std::begin(outside), std::end(outside));
+        const bool flat = unit(d).z < 0.2;
+        const bool blocked = light_blocked(scene, ray, distance, PanelNumber{0});
+        if (nearest_edge > (flat ? 4.5 : 0.1)) {
+            seen++;
+            ASSERT_FALSE(blocked) << i << numbers({from.x, from.y, from.z, x, y});
+        } else if (nearest_edge < -0.1 && !flat) {
+            crossed++;
+            ASSERT_TRUE(blocked) << i << numbers({from.x, from.y, from.z, x, y});
+        }
+        if constexpr (tree == Over::desktop) {
+            ASSERT_EQ(blocked, light_blocked(storage<N>().template view<pictures(Over::none)>(), ray, distance, PanelNumber{0}))
+                << i << numbers({from.x, from.y, from.z, x, y});
+        }
+    }
+    EXPECT_GT(seen, 100);
+    EXPECT_GT(crossed, 50);
+}
+
+TYPED_TEST(TreeTest, WhatAPanelLiesInIsCrossedWhereItHoldsIt)
+{
+    using N = TypeParam;
+    std::string others; // behind, so that there is a tree
+    for (int i = 0; i < 50; i++)
+        others += "s " + std::to_string(i % 10) + " " + std::to_string(i / 10) + " 12 0.1\n";
+    expect_crossed_where_a_panel_lies_in_it<N, Over::none>("");
+    expect_crossed_where_a_panel_lies_in_it<N, Over::desktop>("");
+    expect_crossed_where_a_panel_lies_in_it<N, Over::desktop>(others);
+    expect_crossed_where_a_panel_lies_in_it<N, Over::compiled>(others);
+}
+
 TYPED_TEST(TreeTest, PicturesOfRandomScenesAreTheSame)
 {
     using N = TypeParam;

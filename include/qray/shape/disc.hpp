@@ -23,6 +23,13 @@ QRAY_INLINE constexpr bool surely_missed(const Disc<N>& s, const RejectRay<N>& r
     return ray.misses_plane(s.centre, s.normal);
 }
 
+template <class N>
+constexpr bool reaches(const Disc<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length distance)
+{
+    const Point<N> w = saturating_sub<N>(along<N>(distance, ray.direction), s.centre - ray.origin);
+    return !outside_cube<N>(w, s.radius) && !beyond<N>(w, s.radius);
+}
+
 // t in (0, limit], or false. The disc that the ray starts on does not count.
 template <bool Near = false, class N>
 QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length limit,

@@ -11,6 +11,8 @@
 //   surface_of(shape, corners, ray, t, local, point, normal)     the point of a hit, and the outward unit normal there
 //   shading_normal(shape, corners, ray, normal)                  of a smooth one: unit, not yet turned
 //   normal_of(shape, corners)                                    of one with corners: the outward unit normal
+//   reaches(shape, corners, ray, distance)                       of a flat one: does it hold the ray's point there, which is
+//                                                                in its plane?
 //   move(shape, corners, motion, moved, moved_corners)           what it is then, with all that is derived; false, and nothing
 //                                                                changes, where that leaves the world or is too small
 //   box_of(shape, corners)                                    a box that holds it, for trees
@@ -67,6 +69,10 @@ struct Box {
         const auto higher = [](auto u, auto v) { return u < v ? v : u; };
         low = {lower(low.x, a.x), lower(low.y, a.y), lower(low.z, a.z)};
         high = {higher(high.x, b.x), higher(high.y, b.y), higher(high.z, b.z)};
+    }
+    constexpr bool holds(const Point<N>& p) const
+    {
+        return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
     }
 };
 

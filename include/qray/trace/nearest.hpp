@@ -170,9 +170,10 @@ constexpr int crossings_before(const Scene<N, E>& scene, const S& shape, const R
 {
     for (uint32_t i = 0; i < scene.light_surfaces.count; i++) {
         const LightSurface<N>& surface = scene.light_surfaces[i];
-        if (surface.light == ~panel.value && surface.tag == tag_of(shape)) // it is flat, and the way meets it nowhere else
-            return (dot<N>(surface.normal, ray.direction) <= typename N::Cosine{} ? surface.side < 0 : surface.side > 0)
-                && passes_inside(scene, shape, ray);
+        if constexpr (requires { reaches(shape, corners_of(scene), ray, distance); })
+            if (surface.light == ~panel.value && surface.tag == tag_of(shape)) // the way meets it nowhere else
+                return (dot<N>(surface.normal, ray.direction) <= typename N::Cosine{} ? surface.side < 0 : surface.side > 0)
+                    && reaches(shape, corners_of(scene), ray, distance);
     }
     return crossings_before(scene, shape, ray, distance);
 }
