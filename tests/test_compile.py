@@ -110,7 +110,8 @@ class Compile(unittest.TestCase):
         self.assertEqual(text.split("\n")[0], "// One ball. \\.")
         self.assertRegex(self.header(VIEW), r"^// header.nff by qray compile: q32, 16 x 12 pixels, ")
 
-    # In files of their own, under one name, which the linker must not take for one and the same; and in one file, under two.
+    # In files of their own, under one name, which the linker must not take for one and the same; and in
+    # one file, under two.
     def test_a_program_holds_several_scenes(self):
         draw = ("    qray::render<qray::Rgb888>(%s::scene, row, 1, [](uint32_t, uint32_t, const uint8_t* rgb, uint32_t bytes) {"
                 " return fwrite(rgb, 1, bytes, stdout) == bytes; });\n")

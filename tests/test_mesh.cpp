@@ -1,4 +1,5 @@
-// Triangles in little room: what shares corners, what is left as it was, and that pictures are those of polygons and patches.
+// Triangles in little room: what shares corners, what is left as it was, and that pictures are those of
+// polygons and patches.
 #include "scene_helpers.hpp"
 
 #include <random>
@@ -88,7 +89,8 @@ TYPED_TEST(LeanTest, WhatDoesNotFitIsLeft)
     EXPECT_EQ(s.vertices.count, 5u + 4 * 3);
 }
 
-// Triangles large and small, flat, smooth and along one another's edges, of glass and mirrors, before the eye and at it.
+// Triangles large and small, flat, smooth and along one another's edges, of glass and mirrors,
+// before the eye and at it.
 TYPED_TEST(LeanTest, PicturesAreThoseOfPolygonsAndPatches)
 {
     using N = TypeParam;

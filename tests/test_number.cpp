@@ -26,8 +26,8 @@ TYPED_TEST(NumberTest, ConstantsStandForTheirNumbers)
     EXPECT_EQ(value(N::black), 0);
     EXPECT_EQ(value(N::length_zero), 0);
     EXPECT_TRUE(N::ulp > N::length_zero);
-    // The tracer's distances: 2^7 in fixed point, the whole range in floating point; in q16 and q24 twice the world, and t d
-    // fits 32 bits even for a d that is longer than 1 by 2^-11, with what rounding it adds.
+    // The tracer's distances: 2^7 in fixed point, the whole range in floating point; in q16 and q24 twice the world,
+    // and t d fits 32 bits even for a d that is longer than 1 by 2^-11, with what rounding it adds.
     if constexpr (NarrowFixed<N>) {
         EXPECT_GT(value(N::length_max), 2 * 62.5);
         EXPECT_LE((int64_t{N::length_max.raw} * (N::one.raw + (N::one.raw >> 11)) >> N::dropped) + N::one.raw / 2, INT32_MAX);
@@ -383,8 +383,8 @@ TYPED_TEST(NumberTest, WholePowers)
         EXPECT_EQ(value(N::power_whole(M::unit(0), M::shine(e))), 0) << "0^" << e;
 }
 
-// q32 states 2^-28 absolute (math.hpp), q16 and q24 to be as exact as 14 bits of x; floating point doubles its relative error with
-// each squaring, so that it stays below `exponent` ulp.
+// q32 states 2^-28 absolute (math.hpp), q16 and q24 to be as exact as 14 bits of x; floating point doubles its relative
+// error with each squaring, so that it stays below `exponent` ulp.
 template <class N>
 double power_tolerance(double x, double exponent)
 {

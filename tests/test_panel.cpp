@@ -134,8 +134,8 @@ TYPED_TEST(PanelTest, FarAwayIsASunOrAnError)
     EXPECT_TRUE(built || std::string(error.text).find("a panel that is too far away for its size, 2e+14 by 2e+14") == 0) << error.text;
 }
 
-// A pane that holds a panel, whatever its shape, is as good as one that lets all light through. Turned at random, so that no
-// plane is that of an axis; with glass beside it, for both kinds of shadow rays.
+// A pane that holds a panel, whatever its shape, is as good as one that lets all light through. Turned at random, so
+// that no plane is that of an axis; with glass beside it, for both kinds of shadow rays.
 TYPED_TEST(PanelTest, WhatItLiesInIsNotBeforeIt)
 {
     using N = TypeParam;

@@ -242,8 +242,9 @@ TYPED_TEST(PolygonTest, CrossingsAreCountedBeforeTheLight)
     EXPECT_EQ(s.crossings(down<N>(0.5, 0.5), limit), 0);
 }
 
-// Of several shapes the nearest is found in any order only if a hit depends on the limit by no more than this. A triangle
-// seen flat, whose plane is met behind it, is met in its farthest corner: it may be before a limit that the plane is behind.
+// Of several shapes the nearest is found in any order only if a hit depends on the limit by no more than this. A
+// triangle seen flat, whose plane is met behind it, is met in its farthest corner: it may be before a limit that
+// the plane is behind.
 TYPED_TEST(PolygonTest, AHitIsTheSameForEveryLimitBehindIt)
 {
     QRAY_SHAPE_TEST;

@@ -30,8 +30,8 @@ LANED = {"number/lanes", "vector/vec_lanes"}
 LANES = ["-mavx2", "-mfma", "-mbmi", "-mbmi2", "-mlzcnt"] if platform.machine() == "x86_64" else []
 
 SYSTEMS = ["q16", "q24", "q32", "Float", "Double"]
-# Where floating point may be spoken of: number systems that are it, square roots for them, bytes from their samples, and the tree,
-# which q32 only uses where there is a floating-point unit, and vectors in such a unit's registers.
+# Where floating point may be spoken of: number systems that are it, square roots for them, bytes from their samples,
+# and the tree, which q32 only uses where there is a floating-point unit, and vectors in such a unit's registers.
 FLOATING = {"number/root", "number/floating", "scene/tree", "scene/outline", "picture/sampler", "number/lanes", "vector/vec_lanes"}
 # Beside the compiler's own integer and floating helpers, which have reserved names.
 ALLOWED = re.compile(r"memcpy|memset|memmove|_GLOBAL_OFFSET_TABLE_"

@@ -103,8 +103,8 @@ class Cycles(unittest.TestCase):
         self.assertEqual(self.saved("str r0, [r1]", "adds r2, r0, r3"), 10)
         self.assertEqual(self.saved("push {r4, lr}", "adds r2, r0, r3"), 0)
 
-    # As the manuals say it: on the M0 a push of N is 1 + N, a pop that returns 4 + N; on the M3 a taken branch is 1, and
-    # 1 to 3 to refill the pipeline.
+    # As the manuals say it: on the M0 a push of N is 1 + N, a pop that returns 4 + N; on the M3 a taken branch is 1,
+    # and 1 to 3 to refill the pipeline.
     def test_cycles_of_an_instruction(self):
         def cost(board, operands, kind):
             return cycles.cost(board, types.SimpleNamespace(operands=operands), kind)

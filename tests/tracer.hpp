@@ -1,5 +1,5 @@
-// Builders and tracers for all that a scene can call for: what takes long to compile, once for all tests: the desktop's in
-// tracer.cpp, the boards' in tracer_flat.cpp.
+// Builders and tracers for all that a scene can call for: what takes long to compile, once for all tests: the desktop's
+// in tracer.cpp, the boards' in tracer_flat.cpp.
 #pragma once
 
 #include <qray/picture/render.hpp>

@@ -1,7 +1,7 @@
 # Frames of a scene that moves, as the desktop draws them. Included by the top-level Makefile.
 #   make frames SCENE=... ANIMATION=orbit [FRAMES=24]   build/frames/SCENE-orbit-q32.ppm, one picture behind another
-# and with BOARD=..., `make run` draws the same. An animation is src/firmware/animations/NAME.cpp; its first line says what
-# moves. WITHIN=x,y,z,x,y,z: see qray compile --within.
+# and with BOARD=..., `make run` draws the same. An animation is src/firmware/animations/NAME.cpp; its first line says
+# what moves. WITHIN=x,y,z,x,y,z: see qray compile --within.
 ifdef ANIMATION
 FRAMES  ?= 24
 FR_CODE := src/firmware/animations/$(ANIMATION).cpp

@@ -11,7 +11,8 @@
 #include "firmware/test_card.hpp"
 #endif
 
-// Where there are registers for numbers of floating point, a function that is called once had better not save them again.
+// Where there are registers for numbers of floating point, a function that is called once had better
+// not save them again.
 #ifdef __ARM_FP
 #define QRAY_FLATTEN __attribute__((flatten))
 #else

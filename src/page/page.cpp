@@ -300,8 +300,8 @@ QRAY_EXPORT(explanation) const char* explanation(uint32_t count)
 
 QRAY_EXPORT(ray_count) double ray_count(uint32_t kind) { return static_cast<double>(rays.rays[kind]); }
 
-// Two pictures of that size, one behind the other in the room that room_for_two() gives, and behind them a byte a pixel:
-// the largest difference of a channel.
+// Two pictures of that size, one behind the other in the room that room_for_two() gives, and behind them a byte a
+// pixel: the largest difference of a channel.
 QRAY_EXPORT(room_for_two) uint8_t* room_for_two(uint32_t pixels)
 {
     return cli::make_room(picture, size_t{7} * pixels) ? picture.at : nullptr;

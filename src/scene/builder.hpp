@@ -404,8 +404,8 @@ private:
 
     Texels<N> texels[Limits::images];
 
-    // The bytes of all images: an index a texel where there are at most 256 colours, which stand behind them, and that is
-    // shorter; else all three.
+    // The bytes of all images: an index a texel where there are at most 256 colours, which stand behind them, and that
+    // is shorter; else all three.
     void images()
     {
         for (uint32_t i = 0; i < d.image_count; i++) {
@@ -514,7 +514,8 @@ private:
         return {TextureKind::none, 0};
     }
 
-    // What surfaces send one another: on what takes no part the ambient light, and on the others nothing before it is solved.
+    // What surfaces send one another: on what takes no part the ambient light, and on the others nothing
+    // before it is solved.
     void light_maps()
     {
         const LightGrid* grid = d.grids;

@@ -221,9 +221,9 @@ struct Description {
 };
 
 // Reads the scene text of `size` bytes into `out` (reset first), whose room has out.lay_out(size) bytes. `name` stands
-// in messages; files that the scene names are read by `files`. Returns false, fills `error` and leaves `out` unspecified where the text is no scene of scenes/README.md.
-// Every rule of the language that does not depend on a number system is checked here. Threads may parse into different
-// Descriptions.
+// in messages; files that the scene names are read by `files`. Returns false, fills `error` and leaves `out`
+// unspecified where the text is no scene of scenes/README.md. Every rule of the language that does not depend on a
+// number system is checked here. Threads may parse into different Descriptions.
 bool parse(const char* name, const char* text, size_t size, Description& out, Error& error,
            const Files* files = nullptr);
 

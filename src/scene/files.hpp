@@ -12,8 +12,8 @@ struct Bytes {
 };
 
 struct Files {
-    // Appends to `to` what stands in the file at `path`; of one that is longer, its first `most` + 1 bytes. What is there
-    // may move. Null, or what is wrong: "No such file or directory".
+    // Appends to `to` what stands in the file at `path`; of one that is longer, its first `most` + 1 bytes. What is
+    // there may move. Null, or what is wrong: "No such file or directory".
     const char* (*append)(const char* path, size_t most, Bytes& to);
     // At least `size` bytes, with what the room holds. False where there is no more memory.
     bool (*grow)(Room& room, size_t size);

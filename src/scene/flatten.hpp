@@ -6,8 +6,8 @@
 
 namespace qray::scene {
 
-// From so many surfaces on a tree pays on all boards; of fewer, some scenes are drawn faster without. In q16 boxes are wider
-// and a shape's own test is short.
+// From so many surfaces on a tree pays on all boards; of fewer, some scenes are drawn faster without. In q16 boxes are
+// wider and a shape's own test is short.
 template <class N>
 inline constexpr uint32_t least_for_tree = NarrowFixed<N> ? 40 : 24;
 
@@ -34,8 +34,8 @@ private:
     SplitBox* const nodes = s.split_nodes.data;
     uint32_t* const tests = s.tests.data; // of a node: boxes below it that are tested where it is met; 0: it has none
 
-    // Which inner nodes have a box. One that is met by the share p of its parent's rays costs these a test, and saves the
-    // others those of the k boxes directly below it: it pays where k (1 - p) > 1.
+    // Which inner nodes have a box. One that is met by the share p of its parent's rays costs these a test, and saves
+    // the others those of the k boxes directly below it: it pays where k (1 - p) > 1.
     void choose(uint32_t count)
     {
         for (uint32_t i = count; i-- > 0;) {

@@ -1,5 +1,5 @@
-// A mesh as a Wavefront OBJ file has it: vertices `v`, normals `vn` and faces `f`, a statement a line. All else is passed
-// over, and counted.
+// A mesh as a Wavefront OBJ file has it: vertices `v`, normals `vn` and faces `f`, a statement a line. All else is
+// passed over, and counted.
 #pragma once
 
 #include <charconv>
@@ -30,8 +30,8 @@ public:
         return s;
     }
 
-    // Reads all into arrays of that size. Of each face the corners, v scale + offset, and their normals come behind what
-    // `d` has of them; then face(n, all of them have normals), which returns false where it has written an error.
+    // Reads all into arrays of that size. Of each face the corners, v scale + offset, and their normals come behind
+    // what `d` has of them; then face(n, all of them have normals), which returns false where it has written an error.
     template <class Face>
     bool read(Description& d, double scale, const Vec3d& offset, Vec3d* points, Vec3d* normals, Face face)
     {
@@ -119,7 +119,8 @@ private:
         return false;
     }
 
-    // a, a/b, a//c or a/b/c: the numbers of a vertex, of a place in a picture, and of a normal; 0 where one is left out.
+    // a, a/b, a//c or a/b/c: the numbers of a vertex, of a place in a picture, and of a normal; 0
+    // where one is left out.
     bool corner(int64_t (&numbers)[3])
     {
         const char* at = token.text.data();

@@ -195,8 +195,8 @@ private:
         return found ? good : unknown_entity();
     }
 
-    // The file whose name follows, looked up beside the scene: its `path` and, behind what `to` holds, its `contents`, until
-    // `to` grows again.
+    // The file whose name follows, looked up beside the scene: its `path` and, behind what `to` holds, its `contents`,
+    // until `to` grows again.
     bool file(const char* what, size_t most, Bytes& to, std::string_view& contents)
     {
         token = lexer.next();
@@ -529,7 +529,8 @@ private:
                 o.count = n;
                 return keep(o, Host<Patch>::is_empty(out, o));
             }
-            // Its corners, n at first, become those of triangles: from the last to the first, each behind what is to come.
+            // Its corners, n at first, become those of triangles: from the last to the first, each
+            // behind what is to come.
             o.kind = Kind::polygon;
             o.count = 3;
             Vec3d* const v = out.vertices + o.vertex;

@@ -1,6 +1,6 @@
-// A binary tree of boxes over shapes, by the surface area heuristic in 16 bins of centroids (Wald, On fast construction of
-// SAH-based bounding volume hierarchies, 2007): what the trees of desktops and of boards are made of. Each step depends on
-// which shapes are in a set and never on their order, so that the tree is the same on every machine.
+// A binary tree of boxes over shapes, by the surface area heuristic in 16 bins of centroids (Wald, On fast construction
+// of SAH-based bounding volume hierarchies, 2007): what the trees of desktops and of boards are made of. Each step
+// depends on which shapes are in a set and never on their order, so that the tree is the same on every machine.
 #pragma once
 
 #include <math.h>
@@ -17,8 +17,8 @@ inline Vec3d value(const Quad& q) { return {static_cast<double>(q[0]), static_ca
 inline Quad lower(const Quad& a, const Quad& b) { return a < b ? a : b; }
 inline Quad higher(const Quad& a, const Quad& b) { return a > b ? a : b; }
 
-// A box, and what is in it. Of a shape: `first` is its number, as the caller likes. Of a node: where count is 0, nodes first
-// and first + 1, else shapes first to first + count - 1.
+// A box, and what is in it. Of a shape: `first` is its number, as the caller likes. Of a node: where count is 0, nodes
+// first and first + 1, else shapes first to first + count - 1.
 struct SplitBox {
     float low[3], high[3];
     uint32_t first, count;
@@ -72,8 +72,8 @@ struct SplitBounds {
 inline constexpr int max_split_depth = 40;
 
 // Makes the tree over `count` shapes, whose boxes are put into its order, with at most `leaf` of them in a leaf, in
-// ascending numbers; leaf 2^max_split_depth >= count. `nodes` has room for 2 count. Returns how many it takes; the root is
-// the first, and a node's children stand behind it.
+// ascending numbers; leaf 2^max_split_depth >= count. `nodes` has room for 2 count. Returns how many it takes; the root
+// is the first, and a node's children stand behind it.
 inline uint32_t split_by_area(SplitBox* shapes, uint32_t count, uint32_t leaf, SplitBox* nodes)
 {
     constexpr int bins = 16;

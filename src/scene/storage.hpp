@@ -90,7 +90,8 @@ struct Storage {
 #define QRAY_CUT(Type, name, table) cut(table, shapes[static_cast<int>(Kind::name)]);
             QRAY_SHAPES(QRAY_CUT)
 #undef QRAY_CUT
-            // For compiled scenes alone: see lean.hpp, flatten.hpp. A patch that lean.hpp takes in part has its corners twice.
+            // For compiled scenes alone: see lean.hpp, flatten.hpp. A patch that lean.hpp takes in part
+            // has its corners twice.
             const uint32_t once = compiled;
             cut(triangles, once * shapes[static_cast<int>(Kind::polygon)]);
             cut(smooth_triangles, once * shapes[static_cast<int>(Kind::patch)]);

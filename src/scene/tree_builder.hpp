@@ -166,7 +166,8 @@ void box_shapes(Storage<N>& s)
 #undef QRAY_ADD
 }
 
-// Puts a table into its new order: entry i is what was entry old[i]. Goes round the circles in which they change places.
+// Puts a table into its new order: entry i is what was entry old[i]. Goes round the circles in
+// which they change places.
 template <class T>
 void reorder(T* table, uint32_t* old, uint32_t count)
 {
@@ -182,8 +183,8 @@ void reorder(T* table, uint32_t* old, uint32_t count)
     }
 }
 
-// The binary tree over all shapes, of whose boxes it is made, and these in the order of its leaves. Returns how many nodes
-// it has.
+// The binary tree over all shapes, of whose boxes it is made, and these in the order of its leaves. Returns
+// how many nodes it has.
 template <class N>
 uint32_t split_shapes(Storage<N>& s)
 {

@@ -8,8 +8,8 @@ namespace qray {
 
 namespace detail {
 
-// atan(i / 128), in 2^-32 turns to the nearest, by Euler's series: all its terms are positive, and each is less than half
-// of the last.
+// atan(i / 128), in 2^-32 turns to the nearest, by Euler's series: all its terms are positive, and each is less
+// than half of the last.
 struct ArcTangents {
     uint32_t value[131];
     consteval ArcTangents() : value{}

@@ -1,6 +1,6 @@
 // What depends on the compiler or the processor: here inlining, and counts of leading zeros; in wide.hpp products wider
-// than a register, in root.hpp square roots. Every function gives the same bits on every target, in a constant expression
-// too. An argument is forbidden only where a function says so.
+// than a register, in root.hpp square roots. Every function gives the same bits on every target, in a constant
+// expression too. An argument is forbidden only where a function says so.
 #pragma once
 
 #include <stddef.h>

@@ -1,8 +1,7 @@
 // Fixed-point numbers: Fixed<Frac, Bits> is a signed number in Q-format with Frac fractional bits, kept in 32;
 // Wide<Frac, Bits> holds the exact product of two of them, or a sum of such products, in 2 Bits. Where Bits is 16 a
-// product's factors share the 31 bits beside its sign (q16.hpp says how); where it is 24 the product has its upper 32 bits
-// (q24.hpp). A chain of products is summed in Wide and
-// rounded once, to nearest, ties upward.
+// product's factors share the 31 bits beside its sign (q16.hpp says how); where it is 24 the product has its upper 32
+// bits (q24.hpp). A chain of products is summed in Wide and rounded once, to nearest, ties upward.
 //
 // Nothing here checks for overflow: every caller states why its values fit, or uses saturating_*.
 #pragma once

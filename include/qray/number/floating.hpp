@@ -1,5 +1,5 @@
-// Floating point as a number system: binary32 (Float) and binary64 (Double). Every quantity is of one type, exact products
-// are only as exact as that, and block scales are 0.
+// Floating point as a number system: binary32 (Float) and binary64 (Double). Every quantity is of one type, exact
+// products are only as exact as that, and block scales are 0.
 #pragma once
 
 #include "lanes.hpp"

@@ -1,5 +1,5 @@
-// Roots, reciprocals and quotients in integer arithmetic: no floating point, no library division, the same bits on every
-// target. What cannot be represented saturates, as each function says. One table of 98 bytes serves all.
+// Roots, reciprocals and quotients in integer arithmetic: no floating point, no library division, the same bits on
+// every target. What cannot be represented saturates, as each function says. One table of 98 bytes serves all.
 #pragma once
 
 #include "root.hpp"

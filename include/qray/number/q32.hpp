@@ -213,8 +213,8 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
         return limit > c.raw && -limit < c.raw;
     }
 
-    // How far a new ray that goes on with a picture starts, if its cosine with the normal is at least this: along itself, as
-    // high as leave() steps, or higher.
+    // How far a new ray that goes on with a picture starts, if its cosine with the normal is at least this: along
+    // itself, as high as leave() steps, or higher.
     static constexpr Unit steep{one.raw / 16};
     QRAY_INLINE static constexpr Length leave_along(Unit d)
     {

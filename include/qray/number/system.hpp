@@ -36,8 +36,8 @@ struct FixedScale {
     int32_t shift;
 };
 
-// What is squared is block-scaled first, times 2^fine, fine from `least` to `most`: so that the radius of a ball, and of a
-// cone's ball, with `slack` more for what a coarse test lets pass, stays within these, in ulp.
+// What is squared is block-scaled first, times 2^fine, fine from `least` to `most`: so that the radius of a ball, and
+// of a cone's ball, with `slack` more for what a coarse test lets pass, stays within these, in ulp.
 struct Blocks {
     int least, most;
     int32_t slack, ball, cone;

@@ -1,15 +1,15 @@
-// A tree of boxes over the shapes of a compiled scene, in integers: entries in preorder, each with a link to what follows
-// where a ray misses its box. No stack, and no division at a box. (Stackless by links: Smits, Efficiency issues for ray
-// tracing, 1998.)
+// A tree of boxes over the shapes of a compiled scene, in integers: entries in preorder, each with a link to what
+// follows where a ray misses its box. No stack, and no division at a box. (Stackless by links: Smits, Efficiency issues
+// for ray tracing, 1998.)
 //
 // Boxes are seen by a ProjectedRay, whose header says how far a line may be beside the ray: 4.7 and s steps. A box is
 // wider than what is in it by 8: the 3 that are left take in the rounding of the box, and x where it is cut off.
 //
-// So a ray that passes a leaf's box is near to the corners of what is in it. Rounding makes the box wider, or cuts it off
-// at 64, where no corner is: a corner c, cut off to whole steps, is inside by 7 along each axis. The part of the box that
-// was asked has a middle x and a half p, and lies in the box but for 1 that x is rounded by; x is therefore at most
-// 2 half_x - p - 6 from c. There the line was at most half_y + s p from the box's middle, and this is at most half_y - 7
-// from c: with s <= 1, c is at most 2 half_y + 2 half_x - 13 beside it, and that is rounded up by 1.
+// So a ray that passes a leaf's box is near to the corners of what is in it. Rounding makes the box wider, or cuts it
+// off at 64, where no corner is: a corner c, cut off to whole steps, is inside by 7 along each axis. The part of the
+// box that was asked has a middle x and a half p, and lies in the box but for 1 that x is rounded by; x is therefore at
+// most 2 half_x - p - 6 from c. There the line was at most half_y + s p from the box's middle, and this is at most
+// half_y - 7 from c: with s <= 1, c is at most 2 half_y + 2 half_x - 13 beside it, and that is rounded up by 1.
 #pragma once
 
 #include "../shape/projected_ray.hpp"
@@ -17,8 +17,9 @@
 
 namespace qray {
 
-// Middle and half extent of a box in the steps of ProjectedRay, and a link: how many entries on the next one stands that
-// is not in this one; or, with the highest bit, some shapes of one kind: kind (3 bits), count - 1 (4), the first (24).
+// Middle and half extent of a box in the steps of ProjectedRay, and a link: how many entries on the next one
+// stands that is not in this one; or, with the highest bit, some shapes of one kind: kind (3 bits), count - 1
+// (4), the first (24).
 template <class N>
 struct TreeEntry {
     static constexpr int32_t slack = 8;
@@ -76,8 +77,8 @@ QRAY_NOINLINE constexpr const TreeEntry<N>* next_leaf(const ProjectedRay& ray, c
     return leaf_along<&Entry::z, &Entry::x, &Entry::y, &Entry::half_z, &Entry::half_x, &Entry::half_y>(ray, e);
 }
 
-// Calls visit(kind, first, count) for the shapes that the ray may meet before limit(), until it returns true. limit() is
-// asked again at every leaf.
+// Calls visit(kind, first, count) for the shapes that the ray may meet before limit(), until it returns true. limit()
+// is asked again at every leaf.
 template <class N, class Limit, class Visit>
 QRAY_INLINE constexpr void walk(const TreeEntry<N>* e, ProjectedRay& ray, Limit limit, Visit visit)
 {

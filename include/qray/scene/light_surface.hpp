@@ -1,6 +1,6 @@
 // Surfaces that hold a light, or lie as near to it as rounding. A ray to that light meets such a surface where rounding
-// decides whether before the light or not; but the same ray, sent from the light, is one that leaves the surface, and tells
-// exactly how often it crosses the surface elsewhere.
+// decides whether before the light or not; but the same ray, sent from the light, is one that leaves the surface, and
+// tells exactly how often it crosses the surface elsewhere.
 #pragma once
 
 #include "../vector/ray.hpp"

@@ -1,7 +1,8 @@
-// What exists, one list of each kind. Everything else is derived from these: the sets of effects, a scene's tables, the loops
-// over them, what a desktop stores and what a compiled scene holds. What is forgotten does not compile.
+// What exists, one list of each kind. Everything else is derived from these: the sets of effects, a scene's tables, the
+// loops over them, what a desktop stores and what a compiled scene holds. What is forgotten does not compile.
 //
-// X(Type, name, table): the structure, one template over the number system; the effect that it is; the scene's table of it.
+// X(Type, name, table): the structure, one template over the number system; the effect that it is; the
+// scene's table of it.
 #pragma once
 
 #include <stdint.h>

@@ -6,8 +6,8 @@
 
 namespace qray {
 
-// Half of a picture's vertical field: numbers > 0 in the proportion of its sine and cosine; in fixed point, the larger at
-// least 2^31.
+// Half of a picture's vertical field: numbers > 0 in the proportion of its sine and cosine; in fixed point, the
+// larger at least 2^31.
 template <class N>
 struct Field {
     typename N::Unit sine, cosine;
@@ -77,10 +77,10 @@ constexpr void cross(const int32_t (&a)[3], const int32_t (&b)[3], int64_t (&c)[
 
 } // namespace detail
 
-// Turns `camera`, whose size and grid stay, to look from view.eye towards view.at: within 2 ulp of the one that a desktop
-// makes of these numbers, its parts taken as those of a direction (of Unit, in floating point of 1). False, and nothing
-// changes, where `eye` is not in the world, `at` is where it is, `up` has the direction from the one to the other, or the
-// field is none.
+// Turns `camera`, whose size and grid stay, to look from view.eye towards view.at: within 2 ulp of the one that a
+// desktop makes of these numbers, its parts taken as those of a direction (of Unit, in floating point of 1). False, and
+// nothing changes, where `eye` is not in the world, `at` is where it is, `up` has the direction from the one to the
+// other, or the field is none.
 template <class N>
 constexpr bool look_at(Camera<N>& camera, const Frame<N>& frame, const View<N>& view)
 {

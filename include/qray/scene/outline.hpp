@@ -1,10 +1,12 @@
-// The outlines of polygons and patches, as many edges at once as a register has numbers: which edges cross the half-line of
-// shape/corners.hpp. For float and q32 on desktops, where the tree asks it before the shape, which then need not.
+// The outlines of polygons and patches, as many edges at once as a register has numbers: which edges cross the
+// half-line of shape/corners.hpp. For float and q32 on desktops, where the tree asks it before the shape,
+// which then need not.
 //
-// Float does what crosses() does, edge by edge. In q32, whose answer is that of exact arithmetic, binary32 tells where it
-// can, in ulp of a length and with u = 2^-24: differences v of corners and origin are exact and less than 2^31; a sheared
-// v_x d_z - v_z d_x is off by less than 2 (2^31 3 u) + 2^32 u = 1024, so that where it is beyond `apart` its sign is known;
-// and with s the sum of the four magnitudes an edge's a_x b_y - b_x a_y by less than 1024 s + 2 1024^2 + 512 s.
+// Float does what crosses() does, edge by edge. In q32, whose answer is that of exact arithmetic, binary32 tells
+// where it can, in ulp of a length and with u = 2^-24: differences v of corners and origin are exact and less than
+// 2^31; a sheared v_x d_z - v_z d_x is off by less than 2 (2^31 3 u) + 2^32 u = 1024, so that where it is beyond
+// `apart` its sign is known; and with s the sum of the four magnitudes an edge's a_x b_y - b_x a_y by less than 1024
+// s + 2 1024^2 + 512 s.
 #pragma once
 
 #include "../number/lanes.hpp"
@@ -25,8 +27,8 @@ struct OutlineRow<true> {
     using Type = BoundMask;
 };
 
-// x, y, z of where edges begin, then of where they end; or, behind the blocks of an outline that has several, the lowest
-// and the highest of each of these blocks.
+// x, y, z of where edges begin, then of where they end; or, behind the blocks of an outline that has several, the
+// lowest and the highest of each of these blocks.
 template <class N>
 struct alignas(2 * sizeof(Bounds)) OutlineBlock {
     using Row = typename OutlineRow<N::is_fixed>::Type;
@@ -73,8 +75,8 @@ public:
         }
     }
 
-    // In which blocks may edges cross it, given these blocks' extents? None does where all sheared y have the same sign, or
-    // all x are below 0; each is off by less than 1024 ulp here and there, in float by 2^-13.
+    // In which blocks may edges cross it, given these blocks' extents? None does where all sheared y have the same
+    // sign, or all x are below 0; each is off by less than 1024 ulp here and there, in float by 2^-13.
     QRAY_INLINE uint32_t meets(const OutlineBlock<N>& extents) const
     {
         constexpr float apart = N::is_fixed ? 2048 : 0x1p-12f;

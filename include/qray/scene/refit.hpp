@@ -70,8 +70,9 @@ constexpr Box<N> box_of(const Scene<N, E>& scene, Kind kind, uint32_t index)
 
 } // namespace detail
 
-// Makes every box of the tree hold what is below it: in one pass over the shapes and the entries, which are the scene's own,
-// in RAM. A tree stays the better the less its shapes have left their neighbours; the picture does not depend on it.
+// Makes every box of the tree hold what is below it: in one pass over the shapes and the entries, which are
+// the scene's own, in RAM. A tree stays the better the less its shapes have left their neighbours; the picture
+// does not depend on it.
 template <class N, Effects E>
     requires(E.flat_tree)
 constexpr void refit(const Scene<N, E>& scene, TreeEntry<N>* entries)

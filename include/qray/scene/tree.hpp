@@ -1,8 +1,9 @@
 // A tree of boxes over all shapes, as many to a node as a register has numbers. No pointers, no recursion.
 //
-// It only says which shapes a ray may meet: conservatively, in binary32, whatever the number system. The proof: let a ray
-// o + t d, |d_i| <= 1, |o_i| <= 64, be at a point of a shape at t in [0, 128], and s be the distance from there to a side
-// of the shape's box at `low`, which is behind on an axis with d_i > 0; u = 2^-24. What enters() finds for that side is
+// It only says which shapes a ray may meet: conservatively, in binary32, whatever the number system. The proof: let
+// a ray o + t d, |d_i| <= 1, |o_i| <= 64, be at a point of a shape at t in [0, 128], and s be the distance from
+// there to a side of the shape's box at `low`, which is behind on an axis with d_i > 0; u = 2^-24. What enters()
+// finds for that side is
 //   (low k - c)(1 + e) with k = (1 + e')/d and c = o k (1 + e''), |e| <= u each, twice that for k and for c, to which
 // `behind` is added, as it is to all t here; which, with another (1 + e) on low k where a product is rounded before the
 // sum, is at most
@@ -164,8 +165,8 @@ public:
     }
 
     // Which balls the ray may enter. |v|^2 - (v.d)^2 is compared with r^2, and v.d is at least -r unless the ball is
-    // behind. With |v| < 2^7 and 24 bits, each side of the first comparison is wrong by less than 2^-19 |v|^2; the builder
-    // adds to r what the rounded coordinates may be off.
+    // behind. With |v| < 2^7 and 24 bits, each side of the first comparison is wrong by less than 2^-19 |v|^2; the
+    // builder adds to r what the rounded coordinates may be off.
     QRAY_INLINE uint32_t enters(const BallNode& b) const
     {
         constexpr float k = (1.0f - 0x1p-18f) * unit * unit;
@@ -230,9 +231,9 @@ private:
     }
 };
 
-// Calls visit(ShapeId, open) for every shape whose box the ray may enter before limit(), and whose outline, if it has one,
-// it passes inside of or, where that is open, may do so, until visit returns true: the nearest boxes first, or in any order.
-// limit() is asked again after each leaf, as hits come nearer.
+// Calls visit(ShapeId, open) for every shape whose box the ray may enter before limit(), and whose outline, if it has
+// one, it passes inside of or, where that is open, may do so, until visit returns true: the nearest boxes first, or in
+// any order. limit() is asked again after each leaf, as hits come nearer.
 template <bool NearestFirst, bool HasCorners, class N, class Limit, class Visit>
 QRAY_INLINE void walk(const Tree<N>& tree, const Ray<N>& ray, Limit limit, Visit visit)
 {

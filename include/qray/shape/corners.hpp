@@ -122,9 +122,9 @@ QRAY_INLINE constexpr const auto& known_normal(const S& s)
     return s.normal;
 }
 
-// t in (0, limit], or false; also where that is a crossing at the light that stands at `limit`. Enclosed: the ray is known
-// to pass inside. `own`: the normal, where the shape does not have it. The steps are functions, so that they take the same
-// stack in turn.
+// t in (0, limit], or false; also where that is a crossing at the light that stands at `limit`. Enclosed: the ray is
+// known to pass inside. `own`: the normal, where the shape does not have it. The steps are functions, so that they take
+// the same stack in turn.
 template <bool Enclosed, HasCorners S, class N, class... Own>
 QRAY_NOINLINE constexpr bool meets(const S& s, const Point<N>* points, const Ray<N>& ray, typename N::Length limit,
                                    typename N::Length& t, bool to_light, const Own&... own)

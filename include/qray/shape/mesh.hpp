@@ -1,5 +1,5 @@
-// A triangle in little room, for compiled scenes with a tree: its corners by their numbers, and of its normal only what the
-// rounded corners do not say. A tree finds it, so it has no ball. It is met where, and as, a Polygon or a Patch is.
+// A triangle in little room, for compiled scenes with a tree: its corners by their numbers, and of its normal only what
+// the rounded corners do not say. A tree finds it, so it has no ball. It is met where, and as, a Polygon or a Patch is.
 #pragma once
 
 #include "corners.hpp"

@@ -1,10 +1,11 @@
 // A ray as seen along the axis in which its direction is largest, in integers of 32 bits: what a box or a triangle far
-// from it is turned away by, for two products each. It is two lines, y = y0 + s x and z = z0 + s' x, x being the coordinate
-// along that axis and slopes at most 1, in Q14. Lengths are in steps of 1/512, of which a world of +-62 has +-31744.
+// from it is turned away by, for two products each. It is two lines, y = y0 + s x and z = z0 + s' x, x being
+// the coordinate along that axis and slopes at most 1, in Q14. Lengths are in steps of 1/512, of which a world
+// of +-62 has +-31744.
 //
-// How far a point p of the ray (|p - o| <= 63488 along x) is beside a line as computed: a slope is wrong by less than 2.4
-// 2^-15, that is 0.87 from two components cut off to Q16 (the larger is at least 0.577), 0.5 from a reciprocal and 1 from
-// rounding; in 63488 steps, 4.7. The origin's x is cut off, which is worth s more; the rest is exact to 2^-9.
+// How far a point p of the ray (|p - o| <= 63488 along x) is beside a line as computed: a slope is wrong by less than
+// 2.4 2^-15, that is 0.87 from two components cut off to Q16 (the larger is at least 0.577), 0.5 from a reciprocal and
+// 1 from rounding; in 63488 steps, 4.7. The origin's x is cut off, which is worth s more; the rest is exact to 2^-9.
 #pragma once
 
 #include "../number/math.hpp"

@@ -24,8 +24,9 @@ struct RejectRay<N> {
     QRAY_INLINE constexpr bool misses_ball(const Point<N>& centre, typename N::Length radius) const
     {
         using F = typename N::Length;
-        // First in two dimensions, seen along y, where the direction is 1 or shorter. In a world of 62 that is off by less
-        // than 512 epsilon, the exact test's perpendicular by less than 1024, and the start of a ray inside by 192.
+        // First in two dimensions, seen along y, where the direction is 1 or shorter. In a world of 62 that
+        // is off by less than 512 epsilon, the exact test's perpendicular by less than 1024, and the start of
+        // a ray inside by 192.
         const F aside = ray.direction.x * centre.z - ray.direction.z * centre.x - across;
         if (N::absolute(aside) > radius + F(2048) * N::epsilon)
             return true;

@@ -1,4 +1,5 @@
-// What every shape says of itself and is asked. A shape is a structure with these constants, which are told and not guessed
+// What every shape says of itself and is asked. A shape is a structure with these constants, which are
+// told and not guessed
 //   has_corners   it is made of points in the scene's vertices
 //   keeps_local   what an intersection finds beside t is kept for the surface (Local)
 //   is_smooth     it has shading normals of its own: shading_normal()

@@ -35,8 +35,8 @@ struct LightPlane {
     Vec<typename N::Unit> normal; // unit
     typename N::Length height;    // normal . p
 };
-// And of the light at all nodes: red, green and blue each, in 8 bits or, where a scene is compiled so, in 4 or 2, several
-// in a byte, the first lowest.
+// And of the light at all nodes: red, green and blue each, in 8 bits or, where a scene is compiled so, in 4 or 2,
+// several in a byte, the first lowest.
 template <class N>
 struct LightCell {
     uint8_t value;

@@ -15,7 +15,8 @@ enum class RayKind : uint8_t { camera, shadow, mirrored, refracted };
 struct NoCount {
     constexpr void operator()(RayKind) const {}
 };
-// Is it told everything: what each ray meets, and all that is added or left out? src/cli/observe.cpp lists what it is told.
+// Is it told everything: what each ray meets, and all that is added or left out? src/cli/observe.cpp
+// lists what it is told.
 template <class Count>
 concept Explains = Count::explains;
 

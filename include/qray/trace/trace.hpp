@@ -5,10 +5,10 @@
 
 namespace qray {
 
-// Does the ray only touch an edge of a body, where it meets two faces at the same t? It then enters by one of them and leaves
-// by the other, and what is between is nothing; but the first in the file is met, and may be the one that it leaves. Where t
-// has few bits that happens along a whole outline, and glass would keep rays that never were in it. Faces in one plane do not
-// share an edge.
+// Does the ray only touch an edge of a body, where it meets two faces at the same t? It then enters by one of them and
+// leaves by the other, and what is between is nothing; but the first in the file is met, and may be the one that it
+// leaves. Where t has few bits that happens along a whole outline, and glass would keep rays that never were in it.
+// Faces in one plane do not share an edge.
 template <class N, Effects E>
 QRAY_NOINLINE constexpr bool touches_edge(const Scene<N, E>& scene, Ray<N> ray, Direction<N> left, Tag tag,
                                           typename N::Length at)

@@ -1,6 +1,6 @@
 // Where a compiled scene lies: its builder moved it by `origin` and scaled it by 2^-exponent, so that it fills a number
-// system's range. A program that moves something speaks in scene units: in Coordinates, which are Q16.16 in fixed point,
-// so from -32768 to 32768 in steps of 1/65536, and what the number system itself has in floating point.
+// system's range. A program that moves something speaks in scene units: in Coordinates, which are Q16.16 in fixed
+// point, so from -32768 to 32768 in steps of 1/65536, and what the number system itself has in floating point.
 #pragma once
 
 #include "ray.hpp"
@@ -62,7 +62,8 @@ struct Frame<N> {
     ScenePoint<N> origin;
     int32_t exponent;
 
-    // (p - origin) / 2^(exponent + shift) to the nearest, halves to even; what leaves the range of Length is clamped to it.
+    // (p - origin) / 2^(exponent + shift) to the nearest, halves to even; what leaves the range of
+    // Length is clamped to it.
     constexpr Point<N> point(const ScenePoint<N>& p, int shift = 0) const
     {
         return {of(int64_t{p.x.raw} - origin.x.raw, -shift), of(int64_t{p.y.raw} - origin.y.raw, -shift),

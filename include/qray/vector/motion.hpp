@@ -1,5 +1,5 @@
-// How something moves: it is turned and scaled about a pivot, and then shifted. A motion is applied to places at first, in
-// flash, and gives those of now: so that a thousand small turns end where they began, and no error adds up.
+// How something moves: it is turned and scaled about a pivot, and then shifted. A motion is applied to places at first,
+// in flash, and gives those of now: so that a thousand small turns end where they began, and no error adds up.
 #pragma once
 
 #include "../number/sine.hpp"
@@ -19,7 +19,8 @@ public:
         const Point<N> p = frame.point(place);
         return take(ball_in_world<N>(p), pivot, p);
     }
-    // By an angle of which 2^32 are a whole turn, counter-clockwise seen from where the axis points. The last one counts.
+    // By an angle of which 2^32 are a whole turn, counter-clockwise seen from where the axis points.
+    // The last one counts.
     constexpr Motion& turn(const ScenePoint<N>& axis, uint32_t angle)
     {
         Part a[3]{};
@@ -54,8 +55,8 @@ public:
     constexpr bool turned() const { return turns; }
     constexpr bool scaled() const { return scales; }
 
-    // Of a place in the world, in units of 2^-fine; one rounding a turn and one a scale. What leaves the range of Length is
-    // clamped to it, and so out of the world.
+    // Of a place in the world, in units of 2^-fine; one rounding a turn and one a scale. What leaves the range of
+    // Length is clamped to it, and so out of the world.
     constexpr Point<N> operator()(const Point<N>& p, int fine = 0) const
     {
         const Point<N> centre = scaled_up(pivot, fine);

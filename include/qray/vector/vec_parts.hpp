@@ -109,8 +109,8 @@ QRAY_INLINE constexpr bool outside_cube([[maybe_unused]] const Vec<typename N::L
         return false;
 }
 
-// Of lattice.hpp, a number that is odd where the sum of a point's three cells is: where one question tells for all three
-// that they fit a word. False where they must be found one by one.
+// Of lattice.hpp, a number that is odd where the sum of a point's three cells is: where one question tells for all
+// three that they fit a word. False where they must be found one by one.
 template <InParts N, class Step>
 QRAY_INLINE constexpr bool sum_of_cells([[maybe_unused]] const Step& x, [[maybe_unused]] const Step& y,
                                         [[maybe_unused]] const Step& z,
@@ -127,8 +127,8 @@ QRAY_INLINE constexpr bool sum_of_cells([[maybe_unused]] const Step& x, [[maybe_
     return false;
 }
 
-// dot() and along() for the normal of a flat surface. In a constant table it often lies along an axis, and products with
-// 0 change nothing but the sign of a floating-point 0.
+// dot() and along() for the normal of a flat surface. In a constant table it often lies along an axis, and products
+// with 0 change nothing but the sign of a floating-point 0.
 template <class N, class A>
 QRAY_INLINE constexpr auto dot_normal(const Vec<A>& a, const Vec<typename N::Unit>& n)
 {

@@ -39,8 +39,8 @@ struct Host<Patch> : HostOfCorners {
     static void convert(B& b, const Object& o, uint32_t place)
     {
         using N = typename B::Number;
-        // Blended as they are given: only their proportion within the patch counts. Of unit normals, but for their decimals,
-        // it is left as it is where rounding is too fine to show, so that patches share them.
+        // Blended as they are given: only their proportion within the patch counts. Of unit normals, but for their
+        // decimals, it is left as it is where rounding is too fine to show, so that patches share them.
         double longest = 0;
         for (uint32_t i = 0; i < o.count; i++)
             longest = fmax(longest, length(b.d.normals[o.vertex + i]));
