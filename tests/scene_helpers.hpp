@@ -26,7 +26,8 @@ constexpr scene::Settings compiled(bool is = true)
 
 // Parses and builds into storage<N>().
 template <class N>
-::testing::AssertionResult loaded(const std::string& text, const scene::Settings& settings = {}, const scene::Files* files = nullptr)
+::testing::AssertionResult loaded(const std::string& text, const scene::Settings& settings = {},
+                                  const scene::Files* files = nullptr)
 {
     scene::Error error;
     if (!parse("test.nff", text.data(), text.size(), description(), error, files)

@@ -86,7 +86,10 @@ struct ShapeOf {
         surface(ray, point, n);
         return n;
     }
-    Vec3 shading(const Ray<N>& ray) const { return value(shading_normal(shape, corners(), ray, normal_of(shape, corners()))); }
+    Vec3 shading(const Ray<N>& ray) const
+    {
+        return value(shading_normal(shape, corners(), ray, normal_of(shape, corners())));
+    }
     int crossings(const Ray<N>& ray, Length distance) const
     {
         return qray::crossings(shape, corners(), ray, distance);

@@ -40,8 +40,11 @@ void many_pairs(F f)
 {
     Random random(301);
     for (int i = 0; i < 100'000; i++) {
-        const uint32_t x = static_cast<uint32_t>(random.bits() >> (64 - bits<Narrow>)) >> (random.bits() % bits<Narrow>);
-        const uint32_t y = static_cast<uint32_t>(random.bits() >> (64 - bits<Narrow>)) >> (random.bits() % bits<Narrow>);
+        const auto some = [&random] {
+            const auto all = static_cast<uint32_t>(random.bits() >> (64 - bits<Narrow>));
+            return all >> (random.bits() % bits<Narrow>);
+        };
+        const uint32_t x = some(), y = some();
         if (x == 0 || y == 0)
             continue;
         f(y, x);
@@ -139,7 +142,8 @@ TYPED_TEST(AngleTest, ArcTangent2GoesAroundOnce)
     uint32_t last = half, sum = 0;
     for (int i = 0; i <= 20'000; i++) {
         const double a = (i / 10'000.0 - 1) * M_PI;
-        const int32_t y = static_cast<int32_t>(std::lrint(r * std::sin(a))), x = static_cast<int32_t>(std::lrint(r * std::cos(a)));
+        const int32_t y = static_cast<int32_t>(std::lrint(r * std::sin(a)));
+        const int32_t x = static_cast<int32_t>(std::lrint(r * std::cos(a)));
         const uint32_t angle = arc_tangent2<narrow>(y, x);
         const double exact = turns(atan2q(y, x));
         ASSERT_NEAR(std::remainder(signed_turns(angle) - exact, 1), 0, bound<narrow>);

@@ -215,7 +215,8 @@ class Options(Cli):
         for threads in (2, 5):
             self.assertEqual(self.run_qray("r.nff", "-o", "-", "-j", threads, "-q")[1], out)
         self.write("r.nff", view(8, 6) + "radiosity 0.01 material colour 0.5 0.5 0.5 " + quad(-2, 3) + lamp)
-        self.fails(1, "r.nff: 'radiosity 0.01' needs 1880000 cells of light; expected at most 32768 \\(limit 'cells'\\)", "r.nff")
+        self.fails(1, "r.nff: 'radiosity 0.01' needs 1880000 cells of light; "
+                      "expected at most 32768 \\(limit 'cells'\\)", "r.nff")
 
     def test_warnings(self):
         # A scene of radius 1e9 has steps of 1 in q32; what is 0 wide has no extent.
@@ -484,7 +485,8 @@ class Scenes(Cli):
         self.fails(1, "folder/scene.nff:2:43: 'pictures/one.ppm' is short: it has 13 bytes, and its texels end at 14",
                    "folder/scene.nff")
         os.remove("folder/pictures/one.ppm")
-        self.fails(1, "folder/scene.nff:2:43: cannot read 'pictures/one.ppm': No such file or directory", "folder/scene.nff")
+        self.fails(1, "folder/scene.nff:2:43: cannot read 'pictures/one.ppm': No such file or directory",
+                   "folder/scene.nff")
 
     # The radius of the first scenes is 1/2: planes as far as 64 leave steps of 1/512, as far as 128 of 1/256. That of
     # the others is 1.03: steps are 2^-15, and the limit for a texture is 2^-27.

@@ -113,7 +113,8 @@ class Compile(unittest.TestCase):
     # In files of their own, under one name, which the linker must not take for one and the same; and in
     # one file, under two.
     def test_a_program_holds_several_scenes(self):
-        draw = ("    qray::render<qray::Rgb888>(%s::scene, row, 1, [](uint32_t, uint32_t, const uint8_t* rgb, uint32_t bytes) {"
+        draw = ("    qray::render<qray::Rgb888>(%s::scene, row, 1, "
+                "[](uint32_t, uint32_t, const uint8_t* rgb, uint32_t bytes) {"
                 " return fwrite(rgb, 1, bytes, stdout) == bytes; });\n")
         scenes = [("scenes/balls.nff", "q32"), ("scenes/phong.nff", "q32"), ("scenes/phong.nff", "q16")]
         include, expected, files = "#include <stdio.h>\n", b"", {}

@@ -19,7 +19,8 @@ constexpr bool Effects::* lights[] = {QRAY_LIGHTS(QRAY_FLAG)};
 
 TEST(Effects, AreFlagsAndADepth)
 {
-    EXPECT_EQ(sizeof(Effects), std::size(flags) + sizeof(Effects::depth) + sizeof(Effects::moving) + sizeof(Effects::light_bits));
+    EXPECT_EQ(sizeof(Effects),
+              std::size(flags) + sizeof(Effects::depth) + sizeof(Effects::moving) + sizeof(Effects::light_bits));
 }
 
 TEST(Effects, AreInTheListOfTheirKind)
@@ -106,7 +107,8 @@ TEST(Effects, GroupsFollowTheirFlags)
     EXPECT_FALSE(only(&Effects::sphere).corners() || only(&Effects::disc).corners() || only(&Effects::cone).corners());
     EXPECT_TRUE(only(&Effects::triangle).corners() && only(&Effects::smooth_triangle).corners());
     EXPECT_TRUE(only(&Effects::patch).smooth() && only(&Effects::smooth_triangle).smooth());
-    EXPECT_FALSE(only(&Effects::polygon).smooth() || only(&Effects::triangle).smooth() || only(&Effects::sphere).smooth());
+    EXPECT_FALSE(only(&Effects::polygon).smooth() || only(&Effects::triangle).smooth()
+                 || only(&Effects::sphere).smooth());
     EXPECT_TRUE(only(&Effects::mirror).spawns());
     EXPECT_TRUE(only(&Effects::transmit).spawns());
     EXPECT_TRUE(only(&Effects::see_through).transmits() && only(&Effects::transmit).transmits());

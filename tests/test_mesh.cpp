@@ -21,7 +21,8 @@ std::string enough_for_a_tree()
     return text;
 }
 
-const std::string view = "v from 1 2 9 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 40 30\nl 5 9 7 l -6 2 4\n" + enough_for_a_tree();
+const std::string view = "v from 1 2 9 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 40 30\nl 5 9 7 l -6 2 4\n"
+    + enough_for_a_tree();
 
 // The six corners of an octahedron, as text: x, -x, y, -y, z, -z; smooth, each with the normal along its axis.
 std::string octahedron(bool smooth, const char* scale = "1")
@@ -103,14 +104,16 @@ TYPED_TEST(LeanTest, PicturesAreThoseOfPolygonsAndPatches)
         std::string text = view;
         for (int i = 0; i < 120; i++) {
             if (i % 10 == 0)
-                text += "material colour 0.9 0.7 0.5 diffuse 0.6 " + std::string(i % 20 == 0 ? "mirror 0.5\n" : "transmit 0.5 ior 1.4\n");
+                text += "material colour 0.9 0.7 0.5 diffuse 0.6 "
+                    + std::string(i % 20 == 0 ? "mirror 0.5\n" : "transmit 0.5 ior 1.4\n");
             const double size = i % 12 == 0 ? 4 : i % 3 == 0 ? 1 : i % 7 == 0 ? 0.003 : 0.3;
             const bool smooth = i % 2 == 1;
             const std::string places[] = {number(2), number(2), number(2)};
             text += smooth ? "pp 3 " : "p 3 ";
             for (int corner = 0; corner < 3; corner++) {
                 for (const std::string& place : places)
-                    text += std::to_string(std::stod(place) + size * (static_cast<double>(random() % 2001) / 1000 - 1)) + " ";
+                    text += std::to_string(std::stod(place) + size * (static_cast<double>(random() % 2001) / 1000 - 1))
+                        + " ";
                 if (smooth)
                     text += number(0.5) + number(0.5) + "1 ";
             }
@@ -145,7 +148,8 @@ TYPED_TEST(LeanTest, AFanMayFitInPart)
             snprintf(at, sizeof at, " %.9f %.9f %.9f %.3f %.3f 1", x + u, y + v, 0.1 * u, u, v);
             return std::string(at);
         };
-        text += "pp 4" + corner(0, 0) + corner(0.25, 0) + corner(0.25, 0.25) + corner(0.125 - 1e-5, 0.125 + 1e-5) + "\n";
+        text += "pp 4" + corner(0, 0) + corner(0.25, 0) + corner(0.25, 0.25)
+            + corner(0.125 - 1e-5, 0.125 + 1e-5) + "\n";
     }
     ASSERT_TRUE(loaded<N>(text));
     const Picture expected = draw<N>();

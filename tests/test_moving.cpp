@@ -383,15 +383,16 @@ TYPED_TEST(MovingTest, TreesFollowUnevenPolygons)
         const auto part = [&](int from, uint64_t range) { return static_cast<int>(random.bits() % range) + from; };
         std::string text;
         for (int i = 0; i < 48; i++) {
-            const int x = part(-48, 97), z = part(-72, 81), y = part(-4, 9), beside = part(-48, 97), behind = part(-72, 81);
+            const int x = part(-48, 97), z = part(-72, 81), y = part(-4, 9);
+            const int beside = part(-48, 97), behind = part(-72, 81);
             text += "p 4 " + text_of(x, y, z) + text_of(x + 8, y, z) + text_of(x + 8, y + 1 + seed % 5, z + 8)
                 + text_of(x, y, z + 8) + "\n";
             if (i % 2 != 0) // a wall
                 text += "p 4 " + text_of(beside, -8, behind) + text_of(beside + 8, -8, behind)
                     + text_of(beside + 8, 8, behind) + text_of(beside, 8, behind) + "\n";
         }
-        ASSERT_TRUE(loaded<N>("v\nfrom 0 " + eighths(seed) + " 9\nat 0 0 0\nup 0 1 0\nangle 60\nhither 0\nresolution 96 72\n"
-                                  + "l 1 2 3\nf 1 1 1 1 0 0 0 1\n" + text, moving()));
+        ASSERT_TRUE(loaded<N>("v\nfrom 0 " + eighths(seed) + " 9\nat 0 0 0\nup 0 1 0\nangle 60\nhither 0\n"
+                                  + "resolution 96 72\nl 1 2 3\nf 1 1 1 1 0 0 0 1\n" + text, moving()));
         auto& s = storage<N>();
         EXPECT_TRUE(move_all(Motion<N>(s.frame)));
         refit(s.template view<with_tree>(), s.entries.data);

@@ -30,7 +30,8 @@ TYPED_TEST(NumberTest, ConstantsStandForTheirNumbers)
     // and t d fits 32 bits even for a d that is longer than 1 by 2^-11, with what rounding it adds.
     if constexpr (NarrowFixed<N>) {
         EXPECT_GT(value(N::length_max), 2 * 62.5);
-        EXPECT_LE((int64_t{N::length_max.raw} * (N::one.raw + (N::one.raw >> 11)) >> N::dropped) + N::one.raw / 2, INT32_MAX);
+        EXPECT_LE((int64_t{N::length_max.raw} * (N::one.raw + (N::one.raw >> 11)) >> N::dropped) + N::one.raw / 2,
+                  INT32_MAX);
     } else if constexpr (N::is_fixed)
         EXPECT_EQ(N::length_max.raw, INT32_MAX);
     else
@@ -67,7 +68,8 @@ TYPED_TEST(NumberTest, SquareRootsAreNearest)
     Random random(10);
     double worst = 0, worst_unit = 0;
     for (int i = 0; i < 20000; i++) {
-        const auto a = M::length(random.uniform(0, reach)), b = M::length(std::exp2(random.uniform(-20, is_split<N> ? 2 : 3)));
+        const auto a = M::length(random.uniform(0, reach));
+        const auto b = M::length(std::exp2(random.uniform(-20, is_split<N> ? 2 : 3)));
         const auto area = a * a + b * b;
         const double root = std::sqrt(value(area));
         worst = std::fmax(worst, std::fabs(value(N::sqrt(area)) - root) / M::length_ulp(root));
@@ -392,7 +394,8 @@ double power_tolerance(double x, double exponent)
     if constexpr (NarrowFixed<N>) {
         const double off = is_split<N> ? ulp : ulp / 2; // q24 first rounds x to q16's bits
         return ulp
-            + std::fmax(std::pow(std::fmin(1, x + off), exponent) - exact, exact - std::pow(std::fmax(0, x - off), exponent));
+            + std::fmax(std::pow(std::fmin(1, x + off), exponent) - exact,
+                        exact - std::pow(std::fmax(0, x - off), exponent));
     } else if constexpr (N::is_fixed)
         return 0x1p-28;
     else

@@ -1,5 +1,5 @@
-"""Pictures of build/qray against those of an independent renderer in long double (tests/oracle), on every scene of scenes/ and of
-tests/scenes/, in every number system.
+"""Pictures of build/qray against those of an independent renderer in long double (tests/oracle), on every scene of
+scenes/ and of tests/scenes/, in every number system.
 
 Ends with a line `N passed, N failed`; exit status 1 if any failed."""
 
@@ -156,7 +156,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
         jobs = [pool.submit(test_scene, folder, scene) for scene in scenes]
         others = [pool.submit(test_options, folder, scene, options) for scene in OPTION_SCENES for options in OPTIONS]
-        others += [pool.submit(test_options, folder, scene, options) for scene in SAMPLED_SCENES for options in (["-r", "4"], ["-a", "2"])]
+        others += [pool.submit(test_options, folder, scene, options) for scene in SAMPLED_SCENES
+                   for options in (["-r", "4"], ["-a", "2"])]
         decibels = [job.result() for job in jobs]
         for job in others:
             job.result()

@@ -40,8 +40,8 @@ TYPED_TEST(PanelTest, PlacesAreWhereTheSampleShiftsThem)
         const int n = 1 + static_cast<int>(random.bits() % 16);
         const Vec3 at = random.point(1), u = random.point(3), v = random.point(3);
         const double far = i % 2 == 0 ? 4 : 4e4; // also in larger units
-        std::string text = view + "l 1 1 1 panel 1 0 0 9 1 0 0 0 1 0 panel " + std::to_string(n) + text_of(at * far) + text_of(u * far)
-            + text_of(v * far) + " 1 0.5 0.25 s 0 0 0 1";
+        std::string text = view + "l 1 1 1 panel 1 0 0 9 1 0 0 0 1 0 panel " + std::to_string(n)
+            + text_of(at * far) + text_of(u * far) + text_of(v * far) + " 1 0.5 0.25 s 0 0 0 1";
         scene::Error error;
         ASSERT_TRUE(parse("test.nff", text.data(), text.size(), description(), error)) << error.text;
         const scene::Storage<N>& s = storage<N>();
@@ -93,7 +93,8 @@ TYPED_TEST(PanelTest, LightIsTheMeanOverThePlacesThatAreSeen)
         for (const bool half : {false, true}) {
             const std::string hiding = half ? " material ambient 0 p 4 -9 -9 7.5  0 -9 7.5  0 9 7.5  -9 9 7.5" : "";
             ASSERT_TRUE(loaded<N>(view + "panel " + std::to_string(n) + text_of(at) + text_of(u) + text_of(v)
-                                  + " 1 0.5 0.25\n material diffuse 0.75 highlight 0.5 shine 3 disc 0 0 0 0 0 1 9" + hiding));
+                                  + " 1 0.5 0.25\n material diffuse 0.75 highlight 0.5 shine 3 disc 0 0 0 0 0 1 9"
+                                  + hiding));
             const Shift shift = shift_of(4, 4, 0);
             double sum = 0;
             for (int k = 0; k < n; k++)
@@ -131,7 +132,8 @@ TYPED_TEST(PanelTest, FarAwayIsASunOrAnError)
     ASSERT_TRUE(parse("far", text.data(), text.size(), description(), error));
     const bool built = scene::Builder<N>(description(), {}, storage<N>()).build(error);
     EXPECT_EQ(built, !N::is_fixed);
-    EXPECT_TRUE(built || std::string(error.text).find("a panel that is too far away for its size, 2e+14 by 2e+14") == 0) << error.text;
+    EXPECT_TRUE(built || std::string(error.text).find("a panel that is too far away for its size, 2e+14 by 2e+14") == 0)
+        << error.text;
 }
 
 // A pane that holds a panel, whatever its shape, is as good as one that lets all light through. Turned at random, so
@@ -157,14 +159,15 @@ TYPED_TEST(PanelTest, WhatItLiesInIsNotBeforeIt)
             "p 4" + turned(-2, 4, -2) + turned(2, 4, -2) + turned(2, 4, 2) + turned(-2, 4, 2),
             "p 3" + turned(-0.5, 4, -0.5) + turned(0.5, 4, -0.5) + turned(0, 4, 0.7), // smaller than the panel
             "disc" + turned(0.3, 4, 0) + text_of(normal) + " 1.2",
-            "pp 4" + turned(-2, 4, -2) + text_of(normal) + turned(2, 4, -2) + text_of(normal) + turned(2, 4, 2) + text_of(normal)
-                + turned(-2, 4, 2) + text_of(normal),
+            "pp 4" + turned(-2, 4, -2) + text_of(normal) + turned(2, 4, -2) + text_of(normal)
+                + turned(2, 4, 2) + text_of(normal) + turned(-2, 4, 2) + text_of(normal),
             tiles("p 3", ""),
             tiles("pp 3", text_of(normal)),
         };
-        const std::string head = "ambientlight 0 0 0 v from" + turned(0, 2, 9) + " at" + turned(0, 0.5, 0) + " up" + text_of(normal)
-            + " angle 40 hither 1 resolution 24 18\n panel 3" + turned(0, 4, 0) + turned(1, 0, 0.2) + turned(0.1, 0, 0.9)
-            + " 1 0.8 0.6 material diffuse 0.8 disc" + turned(0, 0, 0) + text_of(normal) + " 6 s" + turned(0.5, 0.5, 0) + " 0.5"
+        const std::string head = "ambientlight 0 0 0 v from" + turned(0, 2, 9) + " at" + turned(0, 0.5, 0) + " up"
+            + text_of(normal) + " angle 40 hither 1 resolution 24 18\n panel 3" + turned(0, 4, 0) + turned(1, 0, 0.2)
+            + turned(0.1, 0, 0.9) + " 1 0.8 0.6 material diffuse 0.8 disc" + turned(0, 0, 0) + text_of(normal) + " 6 s"
+            + turned(0.5, 0.5, 0) + " 0.5"
             + (i % 2 == 0 ? " material colour 0 0 0 transmit 0.5 s" + turned(-1.5, 0.5, 0) + " 0.4" : "");
         const std::string& pane = panes[i / 2];
         ASSERT_TRUE(loaded<N>(head + " material colour 0 0 0 " + pane));

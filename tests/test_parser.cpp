@@ -936,8 +936,10 @@ TEST(Parser, RoomIsEnough) {
 
 TEST(ParserMesh, Forms) {
     beside = {{"a.obj", "# a square, in all forms\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nvn 0 0 2\nvn 1 0 1\nvt 0 0\n"
-                        "f 1 2 3 4\nf -4/1 2/1/1 -2 \\\n 4//1\nf 1//1 2/7/1 3//2 -1//-2\n\r\nusemtl x \xc3\xb6 f\nf 4 4 1\nf 1 3 3\n"}};
-    ASSERT_PARSES(view + "material s 5 0 0 1 mesh a.obj s 6 0 0 1 material colour 1 0 0 mesh a.obj 2 10 20 30.5 s 7 0 0 1");
+                        "f 1 2 3 4\nf -4/1 2/1/1 -2 \\\n 4//1\nf 1//1 2/7/1 3//2 -1//-2\n\r\n"
+                        "usemtl x \xc3\xb6 f\nf 4 4 1\nf 1 3 3\n"}};
+    ASSERT_PARSES(view + "material s 5 0 0 1 mesh a.obj s 6 0 0 1 "
+                         "material colour 1 0 0 mesh a.obj 2 10 20 30.5 s 7 0 0 1");
     ASSERT_EQ(scene.object_count, 3u + 2 * 5);
     EXPECT_EQ(scene.dropped, 4u);
     EXPECT_EQ(scene.fill_count, 2u);
@@ -973,7 +975,8 @@ TEST(ParserMesh, IsBesideTheScene) {
     for (int i = 0; i < 500; i++)
         mesh += "f 1 2 3\n";
     beside = {{"x/a.obj", mesh}, {"/b/a.obj", mesh}};
-    const std::string text = view + "s 1 2 3 4 mesh a.obj pp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1 mesh /b/a.obj mesh a.obj s 5 6 7 8";
+    const std::string text = view + "s 1 2 3 4 mesh a.obj pp 3 0 0 0 0 0 1 1 0 0 0 0 1 0 1 0 0 0 1 mesh /b/a.obj "
+                                    "mesh a.obj s 5 6 7 8";
     Description small;
     grow(small.room, small.lay_out(text.size()));
     ASSERT_TRUE(parse("x/y.nff", text.data(), text.size(), small, error, &files)) << error.text;
@@ -1033,7 +1036,8 @@ TEST(ParserMesh, ErrorsNameTheLineOfTheMesh) {
         const auto lines = std::count(marked.begin(), marked.begin() + static_cast<ptrdiff_t>(at), '\n');
         beside["bad.obj"] = marked.substr(0, at) + marked.substr(at + 1);
         ASSERT_FALSE(parsed(view + "mesh bad.obj 20 0 0 0"));
-        const std::string where = "bad.obj:" + std::to_string(lines + 1) + ":" + std::to_string(at - start + 1) + ": ", text = error.text;
+        const std::string where = "bad.obj:" + std::to_string(lines + 1) + ":" + std::to_string(at - start + 1) + ": ";
+        const std::string text = error.text;
         EXPECT_EQ(text.substr(0, where.size()), where) << text;
         EXPECT_NE(text.find(message), std::string::npos) << text;
     }

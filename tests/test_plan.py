@@ -116,8 +116,9 @@ class Plan(unittest.TestCase):
         for words, said in (([f"SCENE={SCENE}", "BOARD=z80"], "microbit"), ([f"SCENE={SCENE}"], "microbit"),
                             ([f"BOARD={BOARD}"], "no scene"), (["SCENE=none.nff", f"BOARD={BOARD}"], "none.nff"),
                             (good + ["SIZE=0x4"], "WIDTHxHEIGHT"), (good + ["SECONDS=1"], "MHZ"),
-                            (good + ["MHZ=fast"], "above 0"), (good + ["WAITS=-1"], "0 to 15"), (good + ["ERROR=-3dB"], "above 0"),
-                            (good + ["MHZ=1", "SECONDS=nan"], "above 0"), (good + ["CUTOFF=2"], "from 0 to 1")):
+                            (good + ["MHZ=fast"], "above 0"), (good + ["WAITS=-1"], "0 to 15"),
+                            (good + ["ERROR=-3dB"], "above 0"), (good + ["MHZ=1", "SECONDS=nan"], "above 0"),
+                            (good + ["CUTOFF=2"], "from 0 to 1")):
             status, out, err = make("plan", *words)
             self.assertNotEqual(status, 0, words)
             self.assertEqual(out, "", words)

@@ -95,7 +95,8 @@ class Recipes(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         os.makedirs(FOLDER, exist_ok=True)
-        subprocess.run(["build/qray", "compile", "scenes/balls.nff", "-s", "45x37", "-o", f"{FOLDER}/balls.hpp"], check=True)
+        subprocess.run(["build/qray", "compile", "scenes/balls.nff", "-s", "45x37", "-o", f"{FOLDER}/balls.hpp"],
+                       check=True)
 
     def run_program(self, name, text):
         with open(f"{FOLDER}/{name}.cpp", "w") as file:

@@ -1,5 +1,5 @@
-"""What the tracer's headers promise about themselves: what they include and from which floor, that each compiles alone, what
-words are not in them, and what the object code of a render asks of its surroundings: nothing.
+"""What the tracer's headers promise about themselves: what they include and from which floor, that each compiles
+alone, what words are not in them, and what the object code of a render asks of its surroundings: nothing.
 
 Ends with a line `N passed, N failed`; exit status 1 if any failed."""
 
@@ -32,10 +32,12 @@ LANES = ["-mavx2", "-mfma", "-mbmi", "-mbmi2", "-mlzcnt"] if platform.machine() 
 SYSTEMS = ["q16", "q24", "q32", "Float", "Double"]
 # Where floating point may be spoken of: number systems that are it, square roots for them, bytes from their samples,
 # and the tree, which q32 only uses where there is a floating-point unit, and vectors in such a unit's registers.
-FLOATING = {"number/root", "number/floating", "scene/tree", "scene/outline", "picture/sampler", "number/lanes", "vector/vec_lanes"}
+FLOATING = {"number/root", "number/floating", "scene/tree", "scene/outline", "picture/sampler",
+            "number/lanes", "vector/vec_lanes"}
 # Beside the compiler's own integer and floating helpers, which have reserved names.
 ALLOWED = re.compile(r"memcpy|memset|memmove|_GLOBAL_OFFSET_TABLE_"
-                     r"|__(mul|div|udiv|mod|umod|divmod|udivmod|ash[lr]|lshr|clz|ctz|popcount|fix|float)\w*[sdt][ifx]\w*\d?$")
+                     r"|__(mul|div|udiv|mod|umod|divmod|udivmod|ash[lr]|lshr|clz|ctz|popcount|fix|float)"
+                     r"\w*[sdt][ifx]\w*\d?$")
 
 results = []
 
@@ -150,8 +152,8 @@ def lines_with(pattern, only=None):
 
 
 def test_words():
-    for word in ["virtual", "new", "delete", "throw", "try", "catch", "dynamic_cast", "typeid", "thread_local", "mutable",
-                 "extern", "alloca", "__builtin_alloca", "malloc", "const_cast", "goto", "std"]:
+    for word in ["virtual", "new", "delete", "throw", "try", "catch", "dynamic_cast", "typeid", "thread_local",
+                 "mutable", "extern", "alloca", "__builtin_alloca", "malloc", "const_cast", "goto", "std"]:
         check(f"no header says `{word}`", lines_with(rf"\b{word}\b"))
     for word in ["reinterpret_cast", "union"]:
         check(f"no header says `{word}` but those of vector registers",

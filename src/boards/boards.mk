@@ -78,7 +78,8 @@ FW_OBJS   := $(addprefix $(FW_OBJ)/,$(addsuffix .o,$(FW_COMMON) \
     $(if $(filter uart,$(OUTPUT)),output_uart $(BOARD_UART),host_semihosting $(BOARD_COUNTER))))
 # The desktop draws the same picture, and counts its rays.
 FW_COUNT  := build/qray $(SCENE) $(FW_OPTIONS) -q --stats -o /dev/null 2>&1 | sed -n 's/^rays: //p'
-FW_REPORT  = python3 $(FW_SRC)/common/run.py --tools $(BOARD_TOOLS) --tick $(BOARD_TICK) $(if $(UNBOUNDED),--unbounded) $(FW_ELF)
+FW_REPORT  = python3 $(FW_SRC)/common/run.py --tools $(BOARD_TOOLS) --tick $(BOARD_TICK) \
+    $(if $(UNBOUNDED),--unbounded) $(FW_ELF)
 
 # What the outputs were made with: a change of options remakes them.
 FW_CONFIG := $(SCENE) $(FW_COMPILE) $(FW_DEFINES) $(FW_FLAGS) $(FW_MAIN)
@@ -117,7 +118,8 @@ run: $(FW_ELF) $(if $(filter uart,$(OUTPUT)),$(FW_ELF:.elf=.hex)) | firmware-qem
 size: $(FW_ELF)
 	@$(FW_REPORT)
 describe:
-	@echo '{"tools": "$(BOARD_TOOLS)", "cpu": "$(BOARD_CPU)", "optimise": "$(BOARD_OPTIMISE)", "qemu": "$(BOARD_QEMU)", "tick": $(BOARD_TICK)}'
+	@echo '{"tools": "$(BOARD_TOOLS)", "cpu": "$(BOARD_CPU)", "optimise": "$(BOARD_OPTIMISE)",' \
+	    '"qemu": "$(BOARD_QEMU)", "tick": $(BOARD_TICK)}'
 profile: $(FW_ELF) | firmware-qemu
 	@python3 $(FW_SRC)/common/profile.py --tools $(BOARD_TOOLS) --qemu '$(BOARD_QEMU)' $(FW_ELF)
 

@@ -57,8 +57,8 @@ constexpr Effects balls_effects()
 constexpr Effects nff_effects()
 {
     Effects e;
-    e.sphere = e.cone = e.polygon = e.patch = e.light = e.shadow = e.see_through = e.highlight = e.fractional_shine = true;
-    e.mirror = e.transmit = e.tree = true;
+    e.sphere = e.cone = e.polygon = e.patch = e.light = e.shadow = e.see_through = true;
+    e.highlight = e.fractional_shine = e.mirror = e.transmit = e.tree = true;
     e.depth = scene::Settings::max_depth;
     return e;
 }
@@ -100,7 +100,8 @@ void flat_rows_of(uint32_t first, uint32_t last, uint8_t* rgb, RayCounts& counts
 
 // Fills all of `built` but the kernel.
 template <class N>
-bool build_scene(const scene::Description& description, const scene::Settings& settings, Built& built, scene::Error& error)
+bool build_scene(const scene::Description& description, const scene::Settings& settings, Built& built,
+                 scene::Error& error)
 {
     scene::Storage<N>& storage = storage_of<N>();
     if (!make_room(storage.room, storage.lay_out(description, settings.compiled))) {

@@ -68,8 +68,9 @@ void print_stats(const Options& options, const scene::Description& description, 
 
     if (description.radiosity > 0)
         fprintf(stderr,
-                "radiosity_cells: %" PRIu32 "\nradiosity_nodes: %" PRIu32 "\nradiosity_parts: %" PRIu32 "\nradiosity_rays: %" PRIu64
-                "\nradiosity_rounds: %" PRIu32 "\nradiosity_change: %.3g\nradiosity_seconds: %.4f\n",
+                "radiosity_cells: %" PRIu32 "\nradiosity_nodes: %" PRIu32 "\nradiosity_parts: %" PRIu32
+                "\nradiosity_rays: %" PRIu64 "\nradiosity_rounds: %" PRIu32
+                "\nradiosity_change: %.3g\nradiosity_seconds: %.4f\n",
                 description.cell_count, description.light_size, description.cut_count, description.light_rays,
                 description.light_rounds, description.light_change, seconds.solving);
 

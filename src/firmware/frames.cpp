@@ -20,8 +20,8 @@ int main()
                          : board::write_picture(reinterpret_cast<const uint8_t*>(header.text), header.size)))
             return 1;
         if (!animate(frame, QRAY_FRAMES)) {
-            board::say("qray: a move that leaves the scene's frame was refused; expected WITHIN=x,y,z,x,y,z, two corners of a "
-                       "box around all that will be\n");
+            board::say("qray: a move that leaves the scene's frame was refused; expected WITHIN=x,y,z,x,y,z, two "
+                       "corners of a box around all that will be\n");
             return 1;
         }
         if (!qray::render<qray::Rgb888>(scene::scene, row, 1, sink))

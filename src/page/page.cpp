@@ -109,8 +109,8 @@ void put_warning(const scene::Warning& w)
 {
     if (w.count == 0)
         return;
-    put("%s{\"line\": %u, \"column\": %u, \"count\": %u, \"text\": ", answer[used - 1] == '[' ? "" : ", ", w.line, w.column,
-        w.count);
+    put("%s{\"line\": %u, \"column\": %u, \"count\": %u, \"text\": ", answer[used - 1] == '[' ? "" : ", ", w.line,
+        w.column, w.count);
     put_string(w.text);
     put("}");
 }
@@ -176,7 +176,8 @@ QRAY_EXPORT(parse) const char* parse(const char* name, size_t size)
     for (uint32_t i = 0; i < description.light_count; i++)
         panels += description.lights[i].places != 0;
     used = 0;
-    put("{\"width\": %u, \"height\": %u, \"objects\": %u, \"spawns\": %s, \"panels\": %u, \"radiosity\": %s, \"title\": ",
+    put("{\"width\": %u, \"height\": %u, \"objects\": %u, \"spawns\": %s, \"panels\": %u, \"radiosity\": %s, "
+        "\"title\": ",
         description.view.width, description.view.height, description.object_count, spawns ? "true" : "false", panels,
         description.radiosity > 0 ? "true" : "false");
     put_string(description.comment);
@@ -197,8 +198,8 @@ QRAY_EXPORT(solve) const char* solve()
     return "{}";
 }
 
-QRAY_EXPORT(build) const char* build(const char* number, uint32_t width, uint32_t height, uint32_t grid, uint32_t levels,
-                                     double threshold, uint32_t depth, double cutoff)
+QRAY_EXPORT(build) const char* build(const char* number, uint32_t width, uint32_t height, uint32_t grid,
+                                     uint32_t levels, double threshold, uint32_t depth, double cutoff)
 {
     using scene::Settings;
     const auto is_share = [](double v) { return v >= 0 && v <= 1; };
@@ -223,7 +224,8 @@ QRAY_EXPORT(build) const char* build(const char* number, uint32_t width, uint32_
         return answer_error(error.text);
     constexpr uint32_t most = 1 << 22; // pixels that a browser shows in reasonable time
     if (uint64_t{built.width} * built.height > most) {
-        snprintf(error.text, sizeof error.text, "%u x %u pixels; this page draws at most %u", built.width, built.height, most);
+        snprintf(error.text, sizeof error.text, "%u x %u pixels; this page draws at most %u", built.width, built.height,
+                 most);
         return answer_error(error.text);
     }
     if (!cli::make_room(picture, size_t{3} * built.width * built.height))

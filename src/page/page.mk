@@ -9,8 +9,8 @@ WASM_LIBS = $(firstword $(wildcard /usr/lib/wasm32-wasi/libc++.a /usr/lib/llvm-*
     $(shell clang --print-resource-dir)/lib/wasi/libclang_rt.builtins-wasm32.a
 # Number systems are those that the command has. The name of a type of C++ begins with a capital there.
 PAGE_NUMBERS := $(patsubst src/cli/kernel_%.cpp,%,$(wildcard src/cli/kernel_*.cpp))
-PAGE_OBJECTS := $(patsubst src/%.cpp,build/page/obj/%.o,$(wildcard src/scene/*.cpp src/cli/explain.cpp src/cli/observe.cpp) src/page/page.cpp) \
-    $(PAGE_NUMBERS:%=build/page/obj/kernel_%.o)
+PAGE_OBJECTS := $(patsubst src/%.cpp,build/page/obj/%.o,$(wildcard src/scene/*.cpp) \
+    src/cli/explain.cpp src/cli/observe.cpp src/page/page.cpp) $(PAGE_NUMBERS:%=build/page/obj/kernel_%.o)
 
 page: build/page/index.html
 build/page/index.html: build/page/qray.wasm $(wildcard src/page/page.* scenes/*) src/study/README.md

@@ -174,7 +174,8 @@ private:
             }
             for (uint32_t i = 0; i < d.fill_count; i++)
                 if (const Texture& t = d.fills[i].texture;
-                    t.kind != TextureKind::none && t.kind != TextureKind::globe && t.size < Limits::narrow_cell * step) {
+                    t.kind != TextureKind::none && t.kind != TextureKind::globe
+                    && t.size < Limits::narrow_cell * step) {
                     snprintf(error.text, sizeof error.text,
                              "%s has lengths in steps of %.3g here, and a texture's size of %.3g is less than "
                              "1/%.0f of one; expected a larger one, or another number system",
@@ -234,16 +235,17 @@ private:
         if (settings.moving == 0)
             return true;
         if (moves_tables() && d.grid_count != 0) {
-            snprintf(error.text, sizeof error.text, "light between surfaces is that of a scene that stands still; expected "
-                                                    "'--moving camera' alone, or no 'radiosity'");
+            snprintf(error.text, sizeof error.text,
+                     "light between surfaces is that of a scene that stands still; expected "
+                     "'--moving camera' alone, or no 'radiosity'");
             return false;
         }
         if constexpr (N::is_fixed) {
             const int exponent = -ilogb(frame.scale);
             if (const double far = largest(frame.origin) + world / frame.scale; exponent < -10 || far >= 32768) {
                 snprintf(error.text, sizeof error.text,
-                         "a scene that moves has coordinates below 32768 in steps of 1/65536, and this one reaches %.6g "
-                         "and has a radius of %.3g; expected other units, or float",
+                         "a scene that moves has coordinates below 32768 in steps of 1/65536, and this one reaches "
+                         "%.6g and has a radius of %.3g; expected other units, or float",
                          far, frame.radius);
                 return false;
             }
@@ -252,9 +254,11 @@ private:
             using F = typename N::Length;
             s.frame = {place(frame.origin), static_cast<F>(frame.scale), static_cast<F>(1 / frame.scale)};
         }
-        const double half = d.view.angle * (M_PI / 360), most = N::is_fixed ? UINT32_MAX / fmax(sin(half), cos(half)) : 1;
+        const double half = d.view.angle * (M_PI / 360);
+        const double most = N::is_fixed ? UINT32_MAX / fmax(sin(half), cos(half)) : 1;
         const auto part = [most](double v) { return static_cast<decltype(s.text_view.field.sine)>(v * most); };
-        s.text_view = {place(d.view.from), place(d.view.at), place(unit(d.view.up)), {part(sin(half)), part(cos(half))}};
+        s.text_view = {place(d.view.from), place(d.view.at), place(unit(d.view.up)),
+                       {part(sin(half)), part(cos(half))}};
         return true;
     }
 
@@ -339,7 +343,8 @@ private:
         }
         if (s.light_surfaces.count <= most_light_surfaces())
             return true;
-        snprintf(error.text, sizeof error.text, "lights lie on more than %u surfaces (limit 'light_surfaces', times lights)",
+        snprintf(error.text, sizeof error.text,
+                 "lights lie on more than %u surfaces (limit 'light_surfaces', times lights)",
                  most_light_surfaces());
         return false;
     }
@@ -365,7 +370,8 @@ private:
         if (shift > 30 || (is_float && largest(far) > 0x1p60)) {
             if (largest(reach) > 0x1p-20 * largest(at)) {
                 snprintf(error.text, sizeof error.text,
-                         "a panel that is too far away for its size, %.3g by %.3g: as far as 1e9 times the scene's size",
+                         "a panel that is too far away for its size, %.3g by %.3g: "
+                         "as far as 1e9 times the scene's size",
                          2 * scene::length(l.u), 2 * scene::length(l.v));
                 return false;
             }
@@ -572,12 +578,14 @@ private:
             s.light_knots.push() = {static_cast<uint16_t>(d.roots[grid.first_root + i])};
         for (uint32_t i = grid.first_cut; i < grid.first_cut + grid.cuts; i++) {
             const WallCut& cut = d.cuts[i];
-            s.light_cuts.push() = {light_plane(cut), static_cast<uint16_t>(cut.above), static_cast<uint16_t>(cut.below)};
+            s.light_cuts.push() = {light_plane(cut), static_cast<uint16_t>(cut.above),
+                                   static_cast<uint16_t>(cut.below)};
         }
         const uint32_t most = (1u << settings.light_bits) - 1;
         for (const Vec3d* c = first; c != end; c++)
             for (double Vec3d::*part : {&Vec3d::x, &Vec3d::y, &Vec3d::z})
-                light_value(static_cast<uint32_t>(fmin(floor(c->*part / (step.*part * (255 / most)) + 0.5), most)), most);
+                light_value(static_cast<uint32_t>(fmin(floor(c->*part / (step.*part * (255 / most)) + 0.5), most)),
+                            most);
         return s.light_maps.count - 1;
     }
     // Only compiled scenes have several in a byte.
@@ -631,7 +639,8 @@ private:
             even = even && node[i] - node[i - 1u] == between;
         const double step = even ? 1.0 / between : 1;
         const Vec3d row = from.along * step;
-        const LightSteps<N> axis = light_steps(row * (256 / frame.scale), 256 * (dot(row, frame.origin - grid.origin) - (even ? node[0] * step : 0)));
+        const double offset = dot(row, frame.origin - grid.origin) - (even ? node[0] * step : 0);
+        const LightSteps<N> axis = light_steps(row * (256 / frame.scale), 256 * offset);
         const int most = static_cast<int>(256 * (from.count - 1)) - 1;
         if (even)
             return {axis, most, LightAxis<N>::even};

@@ -38,9 +38,11 @@ constexpr const char* fields_of(std::string_view table)
         {"panels", "corner, steps from place to place, all / 2^shift; shift; colour; places along an edge; number"},
         {"suns", "direction towards it; colour"},
         {"entries", "boxes, a tree in preorder: middle; half; link"},
-        {"lights_of", "by place in the scene file: number of the outside's light map, of the inside's; from 2^31 even lights"},
+        {"lights_of", "by place in the scene file: number of the outside's light map, of the inside's; "
+                      "from 2^31 even lights"},
         {"even_lights", "light that is the same everywhere on a side, times diffuse; ambient light"},
-        {"light_maps", "along columns, and rows: coordinate; knots, steps, nodes; what 256 stands for; first cell, root, cut"},
+        {"light_maps", "along columns, and rows: coordinate; knots, steps, nodes; what 256 stands for; "
+                       "first cell, root, cut"},
         {"light_knots", "by steps along an axis: the node there, in 2^-8; roots of cuts"},
         {"light_cuts", "plane of a wall; link above, below: 2 k + 1 to cut k, 2 k + 2 to part k"},
         {"light_planes", "normal; height"},
@@ -149,8 +151,8 @@ private:
                 out.put((i + 1) % in_line == 0 || i + 1 == array.count ? ",\n" : ",");
             }
             if (moves(name))
-                out.print("}};\ninline constinit qray::MovingTable<qray::%s<Number>, %u> %s = first_%s;\n", type, count, name,
-                          name);
+                out.print("}};\ninline constinit qray::MovingTable<qray::%s<Number>, %u> %s = first_%s;\n", type, count,
+                          name, name);
             else
                 out.put("};\n");
         });

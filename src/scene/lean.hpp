@@ -20,8 +20,8 @@ struct LeanBuilder {
 
     // False where its numbers do not fit. `normals` are null where it is flat.
     template <class T>
-    bool push(Array<T>& table, const Point<N>* corners, const Direction<N>* normals, const Direction<N>& g, uint32_t place,
-              uint32_t fill)
+    bool push(Array<T>& table, const Point<N>* corners, const Direction<N>* normals, const Direction<N>& g,
+              uint32_t place, uint32_t fill)
     {
         if (place > UINT16_MAX || fill > UINT8_MAX || s.vertices.count + 3 > UINT16_MAX)
             return false;
@@ -35,7 +35,8 @@ struct LeanBuilder {
                 to = static_cast<int8_t>(difference);
                 return to == difference;
             };
-            if (!rest(g.x, across.x, t.normal.x) || !rest(g.y, across.y, t.normal.y) || !rest(g.z, across.z, t.normal.z))
+            if (!rest(g.x, across.x, t.normal.x) || !rest(g.y, across.y, t.normal.y)
+                || !rest(g.z, across.z, t.normal.z))
                 return false;
         } else {
             t.normal = {g.x, g.y, g.z};

@@ -25,7 +25,8 @@ inline constexpr uint64_t shape_tables = 0 QRAY_SHAPES(QRAY_BIT);
 // What can be named: of the rest, some move along. Triangles in little room keep of their normal what rounded corners
 // do not say, and stand still; figures that move are made none.
 inline constexpr uint64_t lean_tables = bit_of(TableId::triangles) | bit_of(TableId::smooth_triangles);
-inline constexpr uint64_t movable_tables = (shape_tables & ~lean_tables) QRAY_LIGHTS(QRAY_BIT) | bit_of(TableId::mattes);
+inline constexpr uint64_t movable_tables =
+    (shape_tables & ~lean_tables) QRAY_LIGHTS(QRAY_BIT) | bit_of(TableId::mattes);
 #undef QRAY_BIT
 
 // With what follows the tables that are named.

@@ -370,8 +370,8 @@ private:
         if (f.transmit == 0 && (clear(g) || in_front(a, b)) && same(a, b))
             return;
         lost.note({b.line, 0},
-                  "a %s falls together with another surface, that of line %u, %.3g off, where steps are %.3g", name_of(b),
-                  a.line, off, step());
+                  "a %s falls together with another surface, that of line %u, %.3g off, where steps are %.3g",
+                  name_of(b), a.line, off, step());
     }
     bool in_front(const Object& a, const Object& b) const
     {

@@ -13,7 +13,10 @@
 namespace qray::scene {
 
 typedef float Quad __attribute__((vector_size(16))); // x, y, z and a number that does not count
-inline Vec3d value(const Quad& q) { return {static_cast<double>(q[0]), static_cast<double>(q[1]), static_cast<double>(q[2])}; }
+inline Vec3d value(const Quad& q)
+{
+    return {static_cast<double>(q[0]), static_cast<double>(q[1]), static_cast<double>(q[2])};
+}
 inline Quad lower(const Quad& a, const Quad& b) { return a < b ? a : b; }
 inline Quad higher(const Quad& a, const Quad& b) { return a > b ? a : b; }
 

@@ -102,7 +102,8 @@ struct Storage {
             cut(vertices, (1 + once) * d.vertex_count);
             cut(normals, (1 + once) * d.vertex_count);
             cut(tree_shapes, all);
-            if constexpr (has_outlines<N>) // one a triangle; most for its size takes what has one edge more than a block
+            // One a triangle; most for its size takes what has one edge more than a block.
+            if constexpr (has_outlines<N>)
                 cut(outlines, shapes[static_cast<int>(Kind::patch)] + d.vertex_count * 8 / (3 * bound_lanes));
             cut(split_shapes, all);
             cut(split_nodes, 2 * all);

@@ -51,7 +51,8 @@ template <class N>
 void set_ball(BallNode& balls, uint32_t i, const SplitBox* box)
 {
     const double length = static_cast<double>(BallRay<N>::length), unit = static_cast<double>(BallRay<N>::unit);
-    const Vec3d low = box != nullptr ? value(box->lows()) : Vec3d{}, high = box != nullptr ? value(box->highs()) : Vec3d{};
+    const Vec3d low = box != nullptr ? value(box->lows()) : Vec3d{};
+    const Vec3d high = box != nullptr ? value(box->highs()) : Vec3d{};
     const Vec3d centre = (low + high) * 0.5, half = (high - low) * 0.5;
     const bool fills = box != nullptr && ShapeId{box->first}.kind() == Kind::sphere;
     // Wider by what coordinates below 2^7 may be off in 24 bits, here and in a ray's origin: the box's slack is.
@@ -217,7 +218,8 @@ void build_tree(Storage<N>& s)
     OutlineBuilder<N> outlines(s);
     s.tree_shapes.count = count;
     const uint32_t ball_nodes = count == 0 ? 1 : (count + bound_lanes - 1) / bound_lanes;
-    s.tree = {s.nodes.data, s.tree_shapes.data, s.outlines.data, ball_nodes <= Tree<N>::most_balls ? ball_nodes : 0, s.balls};
+    s.tree = {s.nodes.data, s.tree_shapes.data, s.outlines.data,
+              ball_nodes <= Tree<N>::most_balls ? ball_nodes : 0, s.balls};
     if (s.tree.ball_nodes != 0) {
         for (uint32_t i = 0; i < ball_nodes * bound_lanes; i++)
             set_ball<N>(s.balls[i / bound_lanes], i % bound_lanes, i < count ? &s.split_shapes.data[i] : nullptr);

@@ -222,5 +222,5 @@ round (`cornell`) is no step.
 {numbers_table(b)}"""
 
 
-REPORTS = {"bits": (report, lambda: ["figures/steps.svg", "| all together |"] + [f"{n} reaches" for n in fixed_numbers()]
-                    + [f"| `{scene}` |" for scene in scenes()])}
+REPORTS = {"bits": (report, lambda: ["figures/steps.svg", "| all together |"] 
+                    + [f"{n} reaches" for n in fixed_numbers()] + [f"| `{scene}` |" for scene in scenes()])}

@@ -1,7 +1,8 @@
 """make peers PEERS=folder: the command beside POV-Ray and Embree, one thread, 512 x 512, into src/study/README.md
 
-The folder holds NAME.nff.xz and NAME.pov.xz, and embree.cpp, which says '... Mrays/s' of a scene; Debian's packages povray,
-libembree-dev and xz-utils are needed. Where one of these is not there a line says so, and nothing is written."""
+The folder holds NAME.nff.xz and NAME.pov.xz, and embree.cpp, which says '... Mrays/s' of a scene; Debian's packages
+povray, libembree-dev and xz-utils are needed. Where one of these is not there a line says so, and nothing is
+written."""
 
 import os
 import re
@@ -55,7 +56,8 @@ def measured(folder):
 
     seconds, rates = [], []
     for s in POV:
-        pov = ["povray", f"+I{folder}/{s}.pov", f"+W{SIZE}", f"+H{SIZE}", "-D", f"+O{folder}/picture.png", "+WT1", "-GA"]
+        pov = ["povray", f"+I{folder}/{s}.pov", f"+W{SIZE}", f"+H{SIZE}", "-D", f"+O{folder}/picture.png", "+WT1",
+               "-GA"]
         seconds.append(row(s, lambda peer, own: peer / own,
                            [[timed(pov)[0]] + [ours(s, n)[0] for n in NUMBERS] for _ in range(ROUNDS)]))
     for s in EMBREE:
@@ -83,8 +85,8 @@ def main():
             if f.endswith(".xz"):
                 with open(f"{unpacked}/{f[:-3]}", "wb") as out:
                     subprocess.run(["xz", "-dc", os.path.join(folder, f)], stdout=out, check=True)
-        made = subprocess.run(["g++", "-O3", "-march=native", "-w", os.path.join(folder, "embree.cpp"), "-lembree3", "-o",
-                               f"{unpacked}/embree"], capture_output=True)
+        made = subprocess.run(["g++", "-O3", "-march=native", "-w", os.path.join(folder, "embree.cpp"), "-lembree3",
+                               "-o", f"{unpacked}/embree"], capture_output=True)
         if made.returncode != 0:
             print("peers are not measured: embree.cpp does not compile; install libembree-dev")
             return 0

@@ -41,9 +41,10 @@ def report():
                      count(said["radiosity_cells"]), f"{said['radiosity_seconds']:.1f} s",
                      count(built[edge, bits].result["flash"])])
     return (f"`{SCENE}` in `q32`, {SIZE.replace('x', ' × ')} pixels, against `radiosity {TRUTH}` in `double`; "
-            "seconds are this machine's, with all its threads; bits of a colour in the light maps by `--light-bits`, or "
-            "`LIGHT_BITS=` of make:\n\n"
+            "seconds are this machine's, with all its threads; bits of a colour in the light maps by `--light-bits`, "
+            "or `LIGHT_BITS=` of make:\n\n"
             + table(["cells' edges", "bits", "PSNR", "cells", "solved in", "M3 flash"], rows))
 
 
-REPORTS = {"radiosity": (report, lambda: [f"| `radiosity {edge}` |" for edge in EDGES] + [f"| `radiosity {EDGES[2]}` | {bits} |" for bits in BITS])}
+REPORTS = {"radiosity": (report, lambda: [f"| `radiosity {edge}` |" for edge in EDGES]
+                          + [f"| `radiosity {EDGES[2]}` | {bits} |" for bits in BITS])}

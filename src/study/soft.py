@@ -27,7 +27,8 @@ def report():
     truth = {samples: drawn(MOST, samples) for samples in SAMPLES}
     rows = [[f"`panel {places}`"] + [f"{pictures.errors(drawn(places, s), truth[s])['psnr']:.1f} dB" for s in SAMPLES]
             for places in PLACES]
-    return (f"`{SCENE}` in `q32`, {SIZE.replace('x', ' × ')} pixels, against {MOST} × {MOST} places and as many samples:\n\n"
+    return (f"`{SCENE}` in `q32`, {SIZE.replace('x', ' × ')} pixels, against {MOST} × {MOST} places and as many "
+            "samples:\n\n"
             + table(["places", *(f"{s} sample{'s' * (s != '1')}" for s in SAMPLES)], rows))
 
 

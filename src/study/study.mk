@@ -20,8 +20,8 @@ report: build/qray build/oracle $(MEASURE) $(BITS)
 study: build/qray $(MEASURE) $(BITS)
 	@$(PYTHON) $(STUDY)/study.py $(if $(QUICK),quick)
 plan: build/qray $(MEASURE)
-	@$(PYTHON) $(STUDY)/plan.py SCENE='$(SCENE)' BOARD='$(BOARD)' SIZE='$(SIZE)' CUTOFF='$(CUTOFF)' MHZ='$(MHZ)' WAITS='$(WAITS)' \
-	    SECONDS='$(if $(findstring command,$(origin SECONDS)),$(SECONDS))' ERROR='$(ERROR)'
+	@$(PYTHON) $(STUDY)/plan.py SCENE='$(SCENE)' BOARD='$(BOARD)' SIZE='$(SIZE)' CUTOFF='$(CUTOFF)' MHZ='$(MHZ)' \
+	    WAITS='$(WAITS)' SECONDS='$(if $(findstring command,$(origin SECONDS)),$(SECONDS))' ERROR='$(ERROR)'
 peers: build/qray
 	@$(PYTHON) $(STUDY)/peers.py '$(PEERS)'
 .PHONY: report study plan peers

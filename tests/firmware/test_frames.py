@@ -23,9 +23,10 @@ NUMBERS = ["q16", "q32", "float"]
 
 def scene():
     """A ball, a cone, a polygon and a mesh with a tree, lit by one lamp."""
-    lines = ["v", "from 0 3 6", "at 0 1 0", "up 0 1 0", "angle 50", "hither 0", "resolution 24 18", "b 0.3 0.4 0.6", "l 3 6 4",
-             "f 0.8 0.8 0.8 0.8 0 0 0 1", "plane 0 0 0 0 1 0", "f 0.9 0.2 0.2 0.7 0.5 9 0 1", "s -2 1 0 0.75",
-             "f 0.2 0.8 0.3 0.8 0 0 0 1", "c 2 0.5 1 0.5 2 2 1 0.25", "p 4 -1 2 -2 1 2 -2 1 4 -2 -1 4 -2", "f 0.3 0.4 0.9 0.8 0 0 0 1"]
+    lines = ["v", "from 0 3 6", "at 0 1 0", "up 0 1 0", "angle 50", "hither 0", "resolution 24 18", "b 0.3 0.4 0.6",
+             "l 3 6 4", "f 0.8 0.8 0.8 0.8 0 0 0 1", "plane 0 0 0 0 1 0", "f 0.9 0.2 0.2 0.7 0.5 9 0 1",
+             "s -2 1 0 0.75", "f 0.2 0.8 0.3 0.8 0 0 0 1", "c 2 0.5 1 0.5 2 2 1 0.25",
+             "p 4 -1 2 -2 1 2 -2 1 4 -2 -1 4 -2", "f 0.3 0.4 0.9 0.8 0 0 0 1"]
     # A ball of 2 x 12 + 24 triangles.
     def at(ring, k):
         polar, around = math.pi * ring / 4, 2 * math.pi * k / 12

@@ -16,7 +16,8 @@ import check_elf  # noqa: E402
 from test_boards import BOARDS, PARTS, make, tools  # noqa: E402
 
 BUDGETS = "tests/firmware/budgets.txt"
-OPTIONS = {"horizon": "SAMPLES=4", "castle": "ADAPTIVE=2", "mirrors": "DEPTH=9", "glass": "CUTOFF=0.02", "cornell": "LIGHT_BITS=4"}
+OPTIONS = {"horizon": "SAMPLES=4", "castle": "ADAPTIVE=2", "mirrors": "DEPTH=9", "glass": "CUTOFF=0.02",
+           "cornell": "LIGHT_BITS=4"}
 FLAGS = {"SAMPLES": "-r", "ADAPTIVE": "-a", "DEPTH": "-d", "CUTOFF": "--cutoff", "LIGHT_BITS": "--light-bits"}
 ALL = "--all" in sys.argv
 
@@ -33,8 +34,8 @@ def budgets():
 
 
 def images():
-    """What is built and run: all that has a budget, each scene in q32 on the microbit, and in q32 on another board or in
-    float, q16 or q24 on one, by turns."""
+    """What is built and run: all that has a budget, each scene in q32 on the microbit, and in q32 on another board or
+    in float, q16 or q24 on one, by turns."""
     chosen = set(budgets())
     for k, scene in enumerate(scenes()):
         chosen.add(("microbit", scene, "q32"))

@@ -56,8 +56,8 @@ def scene(absent):
 
 
 def compile_scene(name, absent, include, level="-Og"):
-    """Of the tracer's object file what ends in memory, by section, and the names in it; or make's output. -Og takes half
-    of -Os' time, and drops less: where its code is the same, the compiler was told the same functions."""
+    """Of the tracer's object file what ends in memory, by section, and the names in it; or make's output. -Og takes
+    half of -Os' time, and drops less: where its code is the same, the compiler was told the same functions."""
     with open(f"{FOLDER}/{name}.part", "wb") as file:
         file.write(b"P6 2 2 255\n" + bytes(range(12)))
     os.replace(f"{FOLDER}/{name}.part", f"{FOLDER}/image.ppm")  # others may be reading it

@@ -1,10 +1,11 @@
-#   make fuzz SECONDS=600   feed mutated scenes to parser, builders and tracers (vectors in registers), from tests/fuzz/corpus
+#   make fuzz SECONDS=600   feed mutated scenes, from tests/fuzz/corpus, to parser, builders and tracers (in registers)
 FUZZ_CXX := clang++
 SECONDS  ?= 60
 FUZZ_FLAGS := -std=c++20 -O1 -g1 -ffp-contract=off -fno-math-errno -Iinclude -Isrc \
     -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all $(filter-out -fno-gnu-unique,$(LANES))
 
-build/fuzz_scene: tests/fuzz/fuzz_scene.cpp tests/tracer.cpp $(wildcard src/scene/*.?pp src/scene/*/*.hpp include/qray/*/*.hpp)
+build/fuzz_scene: tests/fuzz/fuzz_scene.cpp tests/tracer.cpp \
+    $(wildcard src/scene/*.?pp src/scene/*/*.hpp include/qray/*/*.hpp)
 	@echo "  compile $<"
 	@mkdir -p $(@D)
 	@$(FUZZ_CXX) $(FUZZ_FLAGS) $(filter %.cpp,$^) -o $@

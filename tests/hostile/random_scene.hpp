@@ -160,7 +160,8 @@ private:
         const double ior = random.chance(0.1) ? 8 : random.chance(0.1) ? 0.125 : random.in(0.5, 2.5);
         s += "material colour " + colour(1) + " ambient " + number(weights[0]) + " diffuse " + number(weights[1])
             + " highlight " + number(weights[2]) + " shine " + number(shine) + " mirror " + number(weights[3])
-            + " transmit " + number(weights[4]) + " ior " + number(ior) + (!energy && random.chance(0.2) ? " emission 1.5\n" : "\n");
+            + " transmit " + number(weights[4]) + " ior " + number(ior)
+            + (!energy && random.chance(0.2) ? " emission 1.5\n" : "\n");
         if (random.chance(0.3)) {
             struct Named {
                 const char* name;

@@ -342,7 +342,8 @@ void read_obj(const std::string& path, Real scale, Vec place, Flat flat, Smooth 
         for (size_t k = 1; k < w.size(); ++k) {
             v.push_back(pick(points, std::stoi(w[k])));
             size_t second = w[k].find('/'), third = w[k].find('/', second + 1);
-            if (second != w[k].npos && third != w[k].npos) n.push_back(pick(normals, std::stoi(w[k].substr(third + 1))));
+            if (second != w[k].npos && third != w[k].npos)
+                n.push_back(pick(normals, std::stoi(w[k].substr(third + 1))));
         }
         if (n.size() == v.size()) smooth(v, n);
         else for (size_t k = 1; k + 1 < v.size(); ++k) flat({v[0], v[k], v[k + 1]});

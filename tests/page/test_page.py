@@ -1,5 +1,5 @@
-"""The page (make page) in headless Chromium: its pictures are the command's, byte for byte; its figures those that follow from
-them; errors, dials, the link and the frontier do what they say; the console stays empty."""
+"""The page (make page) in headless Chromium: its pictures are the command's, byte for byte; its figures those that
+follow from them; errors, dials, the link and the frontier do what they say; the console stays empty."""
 
 import base64
 import json
@@ -42,8 +42,8 @@ p 4  -1 0 -1  1 0 -1  1 2 -1  -1 2 -1
 
 def picture(text, *options):
     """The command's picture of a scene text, without its header."""
-    ppm = subprocess.run([os.path.abspath("build/qray"), "-", "-q", "-o", "-", "-s", SIZE, *options], input=text.encode(), cwd="scenes",
-                         stdout=subprocess.PIPE, check=True).stdout
+    ppm = subprocess.run([os.path.abspath("build/qray"), "-", "-q", "-o", "-", "-s", SIZE, *options],
+                         input=text.encode(), cwd="scenes", stdout=subprocess.PIPE, check=True).stdout
     return ppm.split(b"\n", 3)[3]
 
 
@@ -63,7 +63,8 @@ class PageTest(unittest.TestCase):
     def setUpClass(cls):
         options = webdriver.ChromeOptions()
         options.binary_location = BROWSER
-        for switch in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--window-size=1280,900"):
+        for switch in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                       "--window-size=1280,900"):
             options.add_argument(switch)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         cls.driver = webdriver.Chrome(service=webdriver.chrome.service.Service(DRIVER), options=options)
@@ -102,15 +103,16 @@ class PageTest(unittest.TestCase):
         self.wait("done")
 
     def text(self, text, state="done"):
-        self.script("const t = document.getElementById('text'); t.value = arguments[0]; t.dispatchEvent(new Event('input'))", text)
+        self.script("const t = document.getElementById('text'); t.value = arguments[0]; "
+                    "t.dispatchEvent(new Event('input'))", text)
         self.wait(state)
 
     def bytes(self, side):
         return base64.b64decode(self.script(f"return btoa(String.fromCharCode(...sides['AB'.indexOf('{side}')].rgb))"))
 
     def figure(self, name):
-        return self.script("return [...document.querySelectorAll('#figures dt')].find(e => e.textContent === arguments[0])"
-                           ".nextSibling.textContent", name)
+        return self.script("return [...document.querySelectorAll('#figures dt')].find("
+                           "e => e.textContent === arguments[0]).nextSibling.textContent", name)
 
     def screenshot(self, name, width):
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
@@ -127,8 +129,10 @@ class PageTest(unittest.TestCase):
         with open(PAGE, encoding="utf-8") as file:
             page = file.read()
         code = re.sub(r'<script type="application/json".*?</script>', "", page, flags=re.S)
-        self.assertEqual(re.findall(r"\b(?:https?:)?//[a-z][^\s'\"]*", code.replace("http://www.w3.org/2000/svg", "")), [])
-        self.assertEqual(self.script("return performance.getEntriesByType('resource').filter(e => !/^(data|blob):/.test(e.name)).length"), 0)
+        code = code.replace("http://www.w3.org/2000/svg", "")
+        self.assertEqual(re.findall(r"\b(?:https?:)?//[a-z][^\s'\"]*", code), [])
+        self.assertEqual(self.script("return performance.getEntriesByType('resource').filter("
+                                     "e => !/^(data|blob):/.test(e.name)).length"), 0)
 
     def test_pictures_are_those_of_the_command(self):
         for name in ("showcase", "knot", "images", "room"):
@@ -192,7 +196,8 @@ class PageTest(unittest.TestCase):
         self.assertEqual(message.text, said)
         # Its place is a button that leads there.
         message.find_element(By.TAG_NAME, "button").click()
-        self.assertEqual(self.script("const t = document.activeElement; return t.value.slice(t.selectionStart, t.selectionEnd)"), "x")
+        self.assertEqual(self.script("const t = document.activeElement; "
+                                     "return t.value.slice(t.selectionStart, t.selectionEnd)"), "x")
         self.driver.switch_to.active_element.send_keys(Keys.DELETE, Keys.DELETE)
         self.wait("done")
         self.assertEqual(self.bytes("B"), picture(scene("balls")))
@@ -202,18 +207,20 @@ class PageTest(unittest.TestCase):
         self.number("B", "double")
         self.element("summary").click()
         x, y = self.script("return chosen_pixel")
-        self.assertEqual(self.script("return compared.map[80 * chosen_pixel[1] + chosen_pixel[0]] === compared.most"), True)
+        self.assertEqual(self.script("return compared.map[80 * chosen_pixel[1] + chosen_pixel[0]] "
+                                     "=== compared.most"), True)
         self.element("#map").send_keys(Keys.ARROW_RIGHT, Keys.ARROW_DOWN)
         place = f"{x + 1},{y + 1}"
         self.wait(place, "document.getElementById('explain').dataset.pixel")
-        said = subprocess.run(["build/qray", "explain", "-q", "-n", "q16,double", "-s", SIZE, "scenes/showcase.nff", place],
-                              stdout=subprocess.PIPE, check=True).stdout.decode()
+        said = subprocess.run(["build/qray", "explain", "-q", "-n", "q16,double", "-s", SIZE, "scenes/showcase.nff",
+                               place], stdout=subprocess.PIPE, check=True).stdout.decode()
         self.assertEqual(self.script("return document.getElementById('explain').textContent"), said.split("\n", 1)[1])
         # A line of the text is a button that leads there.
         button = self.element("#explain button")
         line = int(button.text.split()[1])
         button.click()
-        self.assertEqual(self.script("const t = document.activeElement; return t.value.slice(t.selectionStart, t.selectionEnd)"),
+        self.assertEqual(self.script("const t = document.activeElement; "
+                                     "return t.value.slice(t.selectionStart, t.selectionEnd)"),
                          scene("showcase").split("\n")[line - 1])
 
     def test_a_change_ends_what_is_being_drawn(self):
@@ -266,7 +273,8 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.figure("PSNR"), f"{psnr(drawn, exact):.1f} dB")
         # 4 096 of 4 800 pixels tell nearly all.
         self.assertAlmostEqual(told, psnr(drawn, exact), delta=0.5)
-        made = {"-a": f" ADAPTIVE={a['levels']}", "-r": f" SAMPLES={a['samples']}" if a["samples"] != 1 else ""}[sampling[0]]
+        made = {"-a": f" ADAPTIVE={a['levels']}",
+                "-r": f" SAMPLES={a['samples']}" if a["samples"] != 1 else ""}[sampling[0]]
         self.assertEqual(self.element("#run").text,
                          f"make run SCENE=scenes/showcase.nff NUMBER={number} BOARD=microbit SIZE={SIZE}{made}")
 

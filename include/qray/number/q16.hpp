@@ -5,7 +5,7 @@
 //   a coordinate            at most 64000 < 2^16
 //   a difference of points  |v| <= 128000 < 2^17; |v.d| <= |v| |d| < 2^31 - 2^24, partial sums too (Cauchy-Schwarz)
 //   a distance t            at most length_max, so that t d fits for |d| <= 1 + 2^-11
-//   a radius                block-scaled up to 2^15, 36700 as it is: (2^15 + 5120)^2 < 2^31 for what passes the coarse test
+//   a radius                block-scaled up to 2^15, 36700 as it is: (2^15 + 5120)^2 < 2^31, past the coarse test
 //   a cone's ball           block-scaled to B <= 18432: |U| <= 2.45 B < sqrt(2^31), half B + root < 2^31 (see cone.hpp)
 //   a sheared corner        not rounded at all: |x dz - z dx| <= |v| |d| < 2^31; the product of two takes 64 bits
 //   a colour                below 8, so that its product with 1 is less than 2^30

@@ -232,7 +232,8 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
     }
     QRAY_INLINE static constexpr Unit power(Unit x, Shine e)
     {
-        return {static_cast<int32_t>(pow_unit(static_cast<uint32_t>(x.raw) << (30 - Unit::frac), e) >> (30 - Unit::frac))};
+        constexpr int up = 30 - Unit::frac;
+        return {static_cast<int32_t>(pow_unit(static_cast<uint32_t>(x.raw) << up, e) >> up)};
     }
 
     QRAY_INLINE static constexpr int32_t shift_left(int32_t v, int by)

@@ -32,7 +32,8 @@ struct StepBox {
     constexpr void put(TreeEntry<N>& e) const
     {
         const auto side = [this](int i, int16_t& middle, uint16_t& half) {
-            const int32_t from = low[i] < INT16_MIN ? INT16_MIN : low[i], to = high[i] > INT16_MAX ? INT16_MAX : high[i];
+            const int32_t from = low[i] < INT16_MIN ? INT16_MIN : low[i];
+            const int32_t to = high[i] > INT16_MAX ? INT16_MAX : high[i];
             middle = static_cast<int16_t>((from + to) >> 1);
             half = static_cast<uint16_t>(to - middle);
         };

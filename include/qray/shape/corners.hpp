@@ -193,7 +193,8 @@ QRAY_INLINE constexpr void surface_of(const S& s, const Corners<N>& corners, con
 // The barycentric weights of where the ray passes a triangle with these corners, or false. By itself, so that its stack
 // is free again where the blend is made unit.
 template <class N, HasCorners S>
-QRAY_NOINLINE constexpr bool corner_weights(const S& s, const Point<N>* points, const Ray<N>& ray, typename N::Unit (&w)[3])
+QRAY_NOINLINE constexpr bool corner_weights(const S& s, const Point<N>* points, const Ray<N>& ray,
+                                            typename N::Unit (&w)[3])
 {
     const Figure<Point<N>> figure = s.figure(points);
     const Shear<N> shear(ray.direction);
@@ -204,7 +205,8 @@ QRAY_NOINLINE constexpr bool corner_weights(const S& s, const Point<N>* points, 
 
 // The blend of three normals by weights, made unit; false where that vanishes.
 template <class N, HasCorners S>
-QRAY_NOINLINE constexpr bool blended(const S& s, const Direction<N>* normals, const typename N::Unit (&w)[3], Direction<N>& n)
+QRAY_NOINLINE constexpr bool blended(const S& s, const Direction<N>* normals, const typename N::Unit (&w)[3],
+                                     Direction<N>& n)
 {
     const auto [a, b, c, count] = s.figure(normals);
     using Blend = Vec<typename N::Cosine>;
@@ -228,7 +230,8 @@ QRAY_NOINLINE constexpr Direction<N> shading_normal(const S& s, const Corners<N>
 
 // What is lean keeps of its normal what its rounded corners do not say, and is for scenes that stand still.
 template <HasCorners S, class N>
-constexpr bool move(const S& from, const Corners<N>& corners, const Motion<N>& motion, S& to, const MovedCorners<N>& moved)
+constexpr bool move(const S& from, const Corners<N>& corners, const Motion<N>& motion, S& to,
+                    const MovedCorners<N>& moved)
 {
     if constexpr (!S::is_lean) {
         if (!motion.valid())

@@ -64,7 +64,8 @@ QRAY_INLINE constexpr void surface_of(const Disc<N>& s, const Corners<N>&, const
 }
 
 template <class N>
-constexpr bool move(const Disc<N>& from, const Corners<N>&, const Motion<N>& motion, Disc<N>& to, const MovedCorners<N>&)
+constexpr bool move(const Disc<N>& from, const Corners<N>&, const Motion<N>& motion, Disc<N>& to,
+                    const MovedCorners<N>&)
 {
     const Disc<N> s{motion(from.centre), motion.direction(from.normal), motion.length(from.radius), from.tag};
     if (!motion.valid() || !(s.radius > N::length_zero) || !disc_in_world<N>(s.centre, s.normal, s.radius))

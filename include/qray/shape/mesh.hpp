@@ -23,7 +23,8 @@ struct MeshCorners {
 
 template <class N, bool Smooth>
 struct MeshTriangle {
-    static constexpr bool has_corners = true, keeps_local = N::is_fixed, is_smooth = Smooth, is_short = false, is_lean = true;
+    static constexpr bool has_corners = true, keeps_local = N::is_fixed, is_smooth = Smooth, is_short = false;
+    static constexpr bool is_lean = true;
 
     MeshCorners corners; // in the scene's vertices; of a smooth one also corner normals
     uint16_t place;      // of its tag, as is the material
@@ -51,7 +52,8 @@ constexpr bool normal_across(const Point<N>& a, const Point<N>& b, const Point<N
     const auto area = [](auto p, auto q, auto r, auto s) { return wide_mul(p.raw, q.raw) - wide_mul(r.raw, s.raw); };
     const int64_t x = area(u.y, v.z, u.z, v.y), y = area(u.z, v.x, u.x, v.z), z = area(u.x, v.y, u.y, v.x);
     // To 30 bits.
-    const int zeros = count_leading_zeros(static_cast<uint64_t>((x ^ (x >> 63)) | (y ^ (y >> 63)) | (z ^ (z >> 63)) | 1));
+    const int64_t all = (x ^ (x >> 63)) | (y ^ (y >> 63)) | (z ^ (z >> 63)) | 1;
+    const int zeros = count_leading_zeros(static_cast<uint64_t>(all));
     const int down = zeros < 34 ? 34 - zeros : 0;
     const auto word = [down](int64_t w) { return static_cast<int32_t>(w >> down); };
     return N::normalise(word(x), word(y), word(z), n.x, n.y, n.z);

@@ -167,11 +167,13 @@ private:
 template <class N>
     requires(NarrowFixed<N> && !ShortFixed<N>)
 struct RejectRay<N> {
-    static constexpr int down = N::Length::frac - q16::Length::frac, down_unit = N::Unit::frac - q16::Unit::frac, slack = 21;
+    static constexpr int down = N::Length::frac - q16::Length::frac, down_unit = N::Unit::frac - q16::Unit::frac;
+    static constexpr int slack = 21;
     Ray<q16> ray;
 
     QRAY_INLINE constexpr explicit RejectRay(const Ray<N>& r)
-        : ray{cut(r.origin), {rounded(r.direction.x), rounded(r.direction.y), rounded(r.direction.z)}, r.from, r.outward}
+        : ray{cut(r.origin), {rounded(r.direction.x), rounded(r.direction.y), rounded(r.direction.z)}, r.from,
+              r.outward}
     {
     }
 
@@ -186,7 +188,10 @@ private:
     {
         return {{p.x.raw >> down}, {p.y.raw >> down}, {p.z.raw >> down}};
     }
-    QRAY_INLINE static constexpr q16::Unit rounded(typename N::Unit v) { return {(v.raw + (1 << (down_unit - 1))) >> down_unit}; }
+    QRAY_INLINE static constexpr q16::Unit rounded(typename N::Unit v)
+    {
+        return {(v.raw + (1 << (down_unit - 1))) >> down_unit};
+    }
 };
 
 } // namespace qray

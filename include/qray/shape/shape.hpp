@@ -5,18 +5,18 @@
 //   is_smooth     it has shading normals of its own: shading_normal()
 //   is_short      its test is so short that where code is cheap a loop over them is unrolled
 // and these functions, found by its type:
-//   tag_of(shape)                                                where it has no member `tag`
-//   surely_missed(shape, reject)                                 may always say no; see reject.hpp
-//   intersect<Near>(shape, corners, ray, limit, t, local)        the nearest t in (0, limit], or false
-//   crossings<Near>(shape, corners, ray, distance)               how often the ray crosses it before a light at `distance`
-//   surface_of(shape, corners, ray, t, local, point, normal)     the point of a hit, and the outward unit normal there
-//   shading_normal(shape, corners, ray, normal)                  of a smooth one: unit, not yet turned
-//   normal_of(shape, corners)                                    of one with corners: the outward unit normal
-//   reaches(shape, corners, ray, distance)                       of a flat one: does it hold the ray's point there, which is
-//                                                                in its plane?
-//   move(shape, corners, motion, moved, moved_corners)           what it is then, with all that is derived; false, and nothing
-//                                                                changes, where that leaves the world or is too small
-//   box_of(shape, corners)                                    a box that holds it, for trees
+//   tag_of(shape)                                            where it has no member `tag`
+//   surely_missed(shape, reject)                             may always say no; see reject.hpp
+//   intersect<Near>(shape, corners, ray, limit, t, local)    the nearest t in (0, limit], or false
+//   crossings<Near>(shape, corners, ray, distance)           how often the ray crosses it before a light at `distance`
+//   surface_of(shape, corners, ray, t, local, point, normal) the point of a hit, and the outward unit normal there
+//   shading_normal(shape, corners, ray, normal)              of a smooth one: unit, not yet turned
+//   normal_of(shape, corners)                                of one with corners: the outward unit normal
+//   reaches(shape, corners, ray, distance)                   of a flat one: does it hold the ray's point there, which is
+//                                                            in its plane?
+//   move(shape, corners, motion, moved, moved_corners)       what it is then, with all that is derived; false,
+//                                                            and nothing changes, where it leaves the world or is tiny
+//   box_of(shape, corners)                                   a box that holds it, for trees
 // Near says that the ray is known not to be surely_missed(). The surface that a ray has just left is told by its tag.
 #pragma once
 
@@ -93,7 +93,8 @@ constexpr int block_scale(typename N::Length size, [[maybe_unused]] int32_t Bloc
     if constexpr (N::is_fixed) {
         const int64_t with_slack = int64_t{size.raw} + N::blocks.slack;
         fine = N::blocks.least;
-        while (fine < N::blocks.most && with_slack << (fine + 1 - N::blocks.least) <= int64_t{N::blocks.*within} << -N::blocks.least)
+        const int64_t most = int64_t{N::blocks.*within} << -N::blocks.least;
+        while (fine < N::blocks.most && with_slack << (fine + 1 - N::blocks.least) <= most)
             fine++;
     }
     return fine;

@@ -162,7 +162,8 @@ constexpr bool set_radius(Sphere<N>& s, Radius radius_times) // radius_times(fin
 }
 
 template <class N>
-constexpr bool move(const Sphere<N>& from, const Corners<N>&, const Motion<N>& motion, Sphere<N>& to, const MovedCorners<N>&)
+constexpr bool move(const Sphere<N>& from, const Corners<N>&, const Motion<N>& motion, Sphere<N>& to,
+                    const MovedCorners<N>&)
 {
     Sphere<N> s = from;
     s.centre = motion(from.centre);

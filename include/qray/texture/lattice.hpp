@@ -85,7 +85,9 @@ struct LatticeAxis<N> {
         constexpr int32_t limit = int32_t{1} << 16;
         const Cell<N> c = cell(q);
         const int32_t index = static_cast<int32_t>(c.index);
-        return index >= limit ? limit << 14 : index < -limit ? -limit * (1 << 14) : index * (1 << 14) + (c.inside.raw >> (N::Unit::frac - 14));
+        return index >= limit ? limit << 14
+            : index < -limit  ? -limit * (1 << 14)
+                              : index * (1 << 14) + (c.inside.raw >> (N::Unit::frac - 14));
     }
     constexpr typename N::Unit clamped(const Point<N>& q) const
     {

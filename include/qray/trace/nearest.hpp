@@ -101,8 +101,10 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
         const RejectRay<N> reject(ray);
         constexpr bool deep = E.triangle || E.smooth_triangle; // keep a normal
         ProjectedRay projected = deep ? ProjectedRay::of(ray) : ProjectedRay(ray);
-        walk(scene.entries.data, projected, limit, [&](Kind of_leaf, uint32_t first, uint32_t count) __attribute__((always_inline)) {
-            return any_shape(scene, of_leaf, first, count, [&]<class S>(const S& shape, Kind kind, uint32_t index) __attribute__((always_inline)) {
+        walk(scene.entries.data, projected, limit,
+             [&](Kind of_leaf, uint32_t first, uint32_t count) __attribute__((always_inline)) {
+            return any_shape(scene, of_leaf, first, count,
+                             [&]<class S>(const S& shape, Kind kind, uint32_t index) __attribute__((always_inline)) {
                 bool missed;
                 if constexpr (S::has_corners)
                     missed = surely_missed(shape, corners_of(scene), projected);
@@ -118,7 +120,7 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
         };
         // Inlined where loops are unrolled, the reject by wide products takes more registers than there are.
         if constexpr (WideFixed<N> && has_wide_multiply)
-            for_each_shape(scene, [&](const auto& shape, Kind kind, uint32_t index) { return ask(shape, kind, index); });
+            for_each_shape(scene, [&](const auto& s, Kind kind, uint32_t index) { return ask(s, kind, index); });
         else
             for_each_shape(scene, ask);
     }
@@ -170,8 +172,9 @@ constexpr int crossings_before(const Scene<N, E>& scene, const S& shape, const R
 {
     for (uint32_t i = 0; i < scene.light_surfaces.count; i++) {
         const LightSurface<N>& surface = scene.light_surfaces[i];
+        // The way meets it nowhere else.
         if constexpr (requires { reaches(shape, corners_of(scene), ray, distance); })
-            if (surface.light == ~panel.value && surface.tag == tag_of(shape)) // the way meets it nowhere else
+            if (surface.light == ~panel.value && surface.tag == tag_of(shape))
                 return (dot<N>(surface.normal, ray.direction) <= typename N::Cosine{} ? surface.side < 0 : surface.side > 0)
                     && reaches(shape, corners_of(scene), ray, distance);
     }

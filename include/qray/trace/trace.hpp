@@ -21,7 +21,8 @@ QRAY_NOINLINE constexpr bool touches_edge(const Scene<N, E>& scene, Ray<N> ray, 
             Local<N> local{};
             const Direction<N> normal = normal_of(shape, corners_of(scene));
             const auto cosine = N::unit(dot<N>(left, normal));
-            touches = !(tag_of(shape) == tag) && dot<N>(normal, ray.direction) < typename N::Cosine{} && cosine < parallel
+            touches = !(tag_of(shape) == tag) && dot<N>(normal, ray.direction) < typename N::Cosine{}
+                && cosine < parallel
                 && -cosine < parallel && intersect(shape, corners_of(scene), ray, at, t, local);
         }
         return touches;

@@ -95,7 +95,10 @@ struct Frame<N> {
     constexpr Point<N> point(const ScenePoint<N>& p, int = 0) const { return vector(p - origin); }
     constexpr typename N::Length length(Coordinate<N> l, int = 0) const { return l * scale; }
     constexpr Point<N> vector(const ScenePoint<N>& v) const { return {v.x * scale, v.y * scale, v.z * scale}; }
-    constexpr ScenePoint<N> place(const Point<N>& p) const { return ScenePoint<N>{back(p.x), back(p.y), back(p.z)} + origin; }
+    constexpr ScenePoint<N> place(const Point<N>& p) const
+    {
+        return ScenePoint<N>{back(p.x), back(p.y), back(p.z)} + origin;
+    }
     constexpr Coordinate<N> back(typename N::Length l) const { return l * unit; }
 };
 
@@ -134,7 +137,8 @@ constexpr bool disc_in_world(const Point<N>& centre, const Direction<N>& n, type
     const Point<N> beside = centre - along<N>(height, n);
     typename N::Length across{};
     if constexpr (N::is_fixed)
-        across = {static_cast<int32_t>(isqrt(static_cast<int64_t>(wide_norm2(beside.x.raw, beside.y.raw, beside.z.raw))))};
+        across = {static_cast<int32_t>(
+            isqrt(static_cast<int64_t>(wide_norm2(beside.x.raw, beside.y.raw, beside.z.raw))))};
     else
         across = N::sqrt(norm2<N>(beside));
     return ball_in_world<N>({height, saturating_sum<N>({across, {}, {}}, {radius, {}, {}}).x, {}});

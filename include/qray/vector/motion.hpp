@@ -60,7 +60,8 @@ public:
     constexpr Point<N> operator()(const Point<N>& p, int fine = 0) const
     {
         const Point<N> centre = scaled_up(pivot, fine);
-        return saturating_sum<N>(turns || scales ? saturating_sum<N>(vector(p - centre), centre) : p, scaled_up(step, fine));
+        return saturating_sum<N>(turns || scales ? saturating_sum<N>(vector(p - centre), centre) : p,
+                                 scaled_up(step, fine));
     }
     // Of a difference of two places.
     constexpr Point<N> vector(Point<N> v) const

@@ -146,7 +146,8 @@ template <class N>
 QRAY_INLINE constexpr Vec<typename N::Length> along_normal(typename N::Length t, const Vec<typename N::Unit>& n)
 {
     if constexpr (!N::is_fixed && InParts<N>)
-        return {QRAY_KNOWN(n.x == 0) ? 0 : t * n.x, QRAY_KNOWN(n.y == 0) ? 0 : t * n.y, QRAY_KNOWN(n.z == 0) ? 0 : t * n.z};
+        return {QRAY_KNOWN(n.x == 0) ? 0 : t * n.x, QRAY_KNOWN(n.y == 0) ? 0 : t * n.y,
+                QRAY_KNOWN(n.z == 0) ? 0 : t * n.z};
     else
         return along<N>(t, n);
 }
