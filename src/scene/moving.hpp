@@ -18,6 +18,8 @@ inline constexpr std::string_view table_names[] = {QRAY_TABLES(QRAY_NAME)};
 
 constexpr uint64_t bit_of(TableId table) { return uint64_t{1} << static_cast<int>(table); }
 inline constexpr uint64_t camera_moves = uint64_t{1} << 63; // in every scene that moves
+// Which surface a lamp lies on, and how surfaces light one another, is known of one place alone.
+constexpr bool moves_tables(uint64_t moving) { return (moving & ~camera_moves) != 0; }
 static_assert(sizeof table_names / sizeof *table_names < 64);
 
 #define QRAY_BIT(Type, name, table) | bit_of(TableId::table)

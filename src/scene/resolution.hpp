@@ -7,21 +7,10 @@
 #include <tuple>
 
 #include "convert.hpp"
+#include "frame.hpp"
 #include "shapes.hpp"
 
 namespace qray::scene {
-
-// How far a point may lie from the origin of what is moved and scaled.
-inline constexpr double world = 62;
-
-// The move and the scale: scaled = (p - origin) * scale, scale a power of two.
-struct Frame {
-    Vec3d origin, centre; // centre: of the scene box, in the scene's own units
-    double scale = 1, radius = 0, far = 0;
-    Vec3d eye;         // where rays start
-    double pushed = 0; // how far that is from where the text has it
-    Vec3d point(const Vec3d& p) const { return (p - origin) * scale; }
-};
 
 template <class N>
 struct Steps {

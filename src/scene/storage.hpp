@@ -5,6 +5,7 @@
 #include <qray/scene/look_at.hpp>
 #include <qray/scene/scene.hpp>
 
+#include "convert.hpp"
 #include "settings.hpp"
 #include "shapes.hpp"
 #include "split.hpp"
@@ -45,6 +46,7 @@ struct Storage {
     uint64_t moving;           // as Settings
     Rgb<N> background;
     int32_t exposure;
+    Rgb<N> colour(const Vec3d& c) const { return Convert<N>::rgb(c * ldexp(1, -exposure)); }
     uint8_t max_depth;
     typename N::Unit cutoff;
     bool shadows;

@@ -89,6 +89,8 @@ inline Vec3d across(const Vec3d* v, uint32_t count)
     return sum;
 }
 
+inline Vec3d grey(double v) { return {v, v, v}; }
+
 // A point as seen from a surface that it is near, or not: how far outward it is, and which way that is, 0 at an apex.
 struct Above {
     bool near = false;
