@@ -17,7 +17,7 @@ TYPED_TEST_SUITE(Catalogue, NumberSystems, SystemNames);
         catalogue::Check check;                                                                         \
         catalogue::name<TypeParam>(check);                                                              \
         EXPECT_GT(check.checks, 0u);                                                                    \
-        EXPECT_EQ(check.failures, 0u) << "first at hard_catalogue.hpp:" << check.first;                 \
+        EXPECT_EQ(check.failures, 0u) << "first in line " << check.first;                               \
     }
 QRAY_CATALOGUE(QRAY_TEST)
 

@@ -1,5 +1,6 @@
 """What the tracer's headers promise about themselves: what they include and from which floor, that each compiles
-alone, what words are not in them, and what the object code of a render asks of its surroundings: nothing.
+alone, what words are not in them, and what the object code of a render asks of its surroundings: nothing; and how long
+lines and files are everywhere.
 
 Ends with a line `N passed, N failed`; exit status 1 if any failed."""
 
@@ -106,6 +107,25 @@ def test_includes():
                 seen.add(i)
                 above += includes(i)[1]
     check("no header includes itself", faults)
+
+
+def test_lengths():
+    """No line is wider than a window, and no file longer than one reads in one go."""
+    counts, wide = {}, []
+    for folder, _, files in (step for top in ("include", "src", "tests") for step in os.walk(os.path.join(ROOT, top))):
+        for path in (os.path.join(folder, f) for f in files if f.endswith((".hpp", ".cpp", ".py", ".mk"))):
+            with open(path, encoding="utf-8") as file:
+                lines = file.read().split("\n")
+            name = os.path.relpath(path, ROOT)
+            wide += [f"{name}:{i}: {len(line)} columns" for i, line in enumerate(lines, 1) if len(line) > 120]
+            if name.endswith(".hpp"):
+                counts[name] = len(lines) - 1, 400
+    for name, most in [("Makefile", 149), ("README.md", 250)]:
+        with open(os.path.join(ROOT, name), encoding="utf-8") as file:
+            counts[name] = file.read().count("\n"), most
+    check("no line has more than 120 columns", wide)
+    check("no header has more than 400 lines, nor the Makefile 149, nor README.md 250",
+          [f"{name}: {count} lines; at most {most}" for name, (count, most) in counts.items() if count > most])
 
 
 def test_compile_alone(folder):
@@ -293,6 +313,7 @@ int* h(int (*p)(int)) { static int* const kept = static_cast<int*>(malloc(8)); c
 def main():
     with tempfile.TemporaryDirectory() as folder:
         test_the_test(folder)
+        test_lengths()
         test_includes()
         test_words()
         test_standard(folder)

@@ -28,7 +28,7 @@ void count(Sum& sum, const char* name, const catalogue::Check& check)
     }
     ++sum.failed;
     board::say(name);
-    say_count(" does not hold: hard_catalogue.hpp:", check.first);
+    say_count(" does not hold: line:", check.first);
 }
 
 template <void (*run)(catalogue::Check&)>

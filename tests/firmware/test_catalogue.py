@@ -2,6 +2,7 @@
 From the top of the repository: python3 tests/firmware/test_catalogue.py"""
 
 import concurrent.futures
+import glob
 import os
 import re
 import subprocess
@@ -54,8 +55,11 @@ FOLDER = "build/hard"
 
 
 def case_count():
-    with open("tests/hard_catalogue.hpp") as file:
-        return len(re.findall(r"^QRAY_CASE\(", file.read(), re.M))
+    count = 0
+    for path in glob.glob("tests/hard/*.hpp"):
+        with open(path) as file:
+            count += len(re.findall(r"^QRAY_CASE\(", file.read(), re.M))
+    return count
 
 
 def run_catalogue(board, number, name="catalogue", **options):
