@@ -290,7 +290,8 @@ private:
         for (uint32_t i = 0; i < d.fill_count; i++) {
             const Fill& f = d.fills[i];
             const Vec3d ambient = d.radiosity > 0 ? Vec3d{} : d.ambient * f.ambient; // or in light maps
-            s.mattes.push() = {Convert<N>::direction(f.colour), s.colour(ambient + grey(f.emission)), Convert<N>::unit(f.diffuse)};
+            s.mattes.push() = {Convert<N>::direction(f.colour), s.colour(ambient + grey(f.emission)),
+                               Convert<N>::unit(f.diffuse)};
             s.highlights.push() = {Convert<N>::unit(f.highlight), Convert<N>::shine(f.shine)};
             s.mirrors.push() = {Convert<N>::unit(f.mirror)};
             s.transmits.push() = {Convert<N>::unit(f.transmit), Convert<N>::eta(1 / f.ior), Convert<N>::eta(f.ior)};

@@ -74,8 +74,8 @@ private:
         const auto top = [](double v) { return fmin(fmax(v, least), white) / steps; };
         const Vec3d step{top(high.x), top(high.y), top(high.z)};
         const LightAxis<N> x = light_axis(grid, grid.x), y = light_axis(grid, grid.y);
-        s.light_maps.push() = {x, y, s.colour(step * (N::is_fixed ? 256 : 0x1p-16)), static_cast<uint16_t>(grid.x.count),
-                               static_cast<uint16_t>(grid.y.count), light_values,
+        s.light_maps.push() = {x, y, s.colour(step * (N::is_fixed ? 256 : 0x1p-16)),
+                               static_cast<uint16_t>(grid.x.count), static_cast<uint16_t>(grid.y.count), light_values,
                                grid.cuts != 0 ? s.light_knots.count : LightMap<N>::whole, s.light_cuts.count};
         for (uint32_t i = 0; grid.cuts != 0 && i < (grid.x.count - 1) * (grid.y.count - 1); i++)
             s.light_knots.push() = {static_cast<uint16_t>(d.roots[grid.first_root + i])};

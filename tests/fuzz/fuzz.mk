@@ -1,4 +1,4 @@
-#   make fuzz SECONDS=600   feed mutated scenes, from tests/fuzz/corpus, to parser, builders and tracers (in registers)
+#   make fuzz SECONDS=600   feed mutated scenes, from tests/fuzz/corpus, to parser, builders and tracers (in lanes)
 FUZZ_CXX := clang++
 SECONDS  ?= 60
 FUZZ_FLAGS := -std=c++20 -O1 -g1 -ffp-contract=off -fno-math-errno -Iinclude -Isrc \

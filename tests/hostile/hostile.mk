@@ -1,6 +1,6 @@
 # Random hostile rays without end; `make test` throws a million at each shape in each number system.
 #   make soak                   10^8 rays a shape and number system (60 CPU-minutes); RAYS=N SEED=N
-#   make soak-scenes            10^6 random scenes, sanitized, in registers (5 CPU-minutes); SCENES=N of each kind, SEED=N
+#   make soak-scenes            10^6 random scenes, sanitized, in lanes (5 CPU-minutes); SCENES=N of each kind, SEED=N
 #   make soak-trees             10^7 rays, 3000 random scenes, with trees and without (10 CPU-minutes); RAYS=N SCENES=N
 build/hostile/hostile: build/obj/tests/hostile/hostile.o $(LIBRARY)
 	@mkdir -p $(@D)
