@@ -11,9 +11,9 @@ import unittest
 QRAY = os.path.abspath("build/qray")
 SANITIZED = os.path.abspath("build/sanitized/qray")
 SCENES = os.path.abspath("scenes")
-NUMBERS = "q16", "q32", "float", "double"
-# What a number may be off: half of its fifth digit, and in q16 two of 1/1024.
-OFF = {"q16": 2e-3, "q32": 5.1e-5, "float": 5.1e-5, "double": 5.1e-5}
+NUMBERS = "q16", "q24", "q32", "float", "double"
+# What a number may be off: half of its fifth digit, and in q16 and q24 two steps, of 1/1024 and 1/65536.
+OFF = {"q16": 2e-3, "q24": 8.2e-5, "q32": 5.1e-5, "float": 5.1e-5, "double": 5.1e-5}
 
 VIEW = "v from 0 0 5 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 9 9\n"
 BALL = VIEW + """b 0.125 0.25 0.5
@@ -181,8 +181,8 @@ disc 0.2 0 2 0 0 1 0.1
                 (["-", "4,"], "'4,' is no pixel; expected X,Y, from 0"),
                 (["-"], "no pixel; expected X,Y behind the scene"),
                 (["-", "4,4", "5,5"], "one scene at a time; '5,5' is a second"),
-                (["-n", "q16,q8", "-", "4,4"], "'-n q16,q8': expected q16, q32, float or double, or two of them with a "
-                                               "comma between")):
+                (["-n", "q16,q8", "-", "4,4"], f"'-n q16,q8': expected {', '.join(NUMBERS[:-1])} or {NUMBERS[-1]}, or "
+                                               "two of them with a comma between")):
             self.assertEqual(run("explain", *arguments, text=BALL), (2, "", f"qray: {expected}\n"))
         status, out, wrong = run("explain", "-", "1,1", text="v nonsense\n")
         self.assertEqual((status, out, wrong.count("\n")), (1, "", 1))

@@ -310,14 +310,15 @@ constexpr Effects pictures(Over tree)
     return e;
 }
 
-// A panel that reaches beyond what it lies in: that is crossed at those places alone that it holds, also by a ray almost in
-// its plane, whose line passes inside of it elsewhere.
+// A panel that reaches beyond what it lies in: that is crossed at those places alone that it holds, also by a ray almost
+// in its plane, whose line passes inside of it elsewhere.
 template <class N, Over tree>
 void expect_crossed_where_a_panel_lies_in_it(const std::string& others)
 {
     Random random(5001);
-    const std::string text = "v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3 panel 3 0 0 0 6 0 0 0 6 0\n"
-                             "disc 1 1 0 0 0 1 2 p 3 -3 -3 0 -1 -3 0 -3 -1 0 pp 3 -3 1 0 0 0 1 -1 1 0 0 0 1 -3 3 0 0 0 1\n"
+    const std::string text = "v from 0 0 8 at 0 0 -8 up 0 1 0 angle 45 hither 1 resolution 3 3 "
+                             "panel 3 0 0 0 6 0 0 0 6 0\ndisc 1 1 0 0 0 1 2 "
+                             "p 3 -3 -3 0 -1 -3 0 -3 -1 0 pp 3 -3 1 0 0 0 1 -1 1 0 0 0 1 -3 3 0 0 0 1\n"
                              "p 4 1 -3 0 3 -3 0 3 -2 0 1 -2 0\n" + others;
     ASSERT_TRUE(loaded<N>(text, compiled(tree == Over::compiled)));
     ASSERT_EQ(storage<N>().light_surfaces.count, 4u);
@@ -351,7 +352,8 @@ void expect_crossed_where_a_panel_lies_in_it(const std::string& others)
             ASSERT_TRUE(blocked) << i << numbers({from.x, from.y, from.z, x, y});
         }
         if constexpr (tree == Over::desktop) {
-            ASSERT_EQ(blocked, light_blocked(storage<N>().template view<pictures(Over::none)>(), ray, distance, PanelNumber{0}))
+            const auto plain = storage<N>().template view<pictures(Over::none)>();
+            ASSERT_EQ(blocked, light_blocked(plain, ray, distance, PanelNumber{0}))
                 << i << numbers({from.x, from.y, from.z, x, y});
         }
     }

@@ -65,7 +65,7 @@ FW_INCLUDE ?= include
 FW_COMPILE  := $(FW_OPTIONS) $(if $(ANIMATION),--moving $(FR_MOVES))
 FW_DEFINES  := $(FR_DEFINES) $(if $(SCENE),-DQRAY_SCENE_HEADER='"$(notdir $(FW_STEM)).hpp"',\
     $(if $(SIZE),-DQRAY_WIDTH=$(word 1,$(FW_SIZE)) -DQRAY_HEIGHT=$(word 2,$(FW_SIZE))))
-FW_FLAGS    := -std=c++20 $(BOARD_CPU) $(BOARD_OPTIMISE) -g $(WARNINGS) \
+FW_FLAGS    := -std=c++20 $(BOARD_CPU) $(BOARD_OPTIMISE) -g $(WARNINGS) -Wno-maybe-uninitialized \
     -I$(FW_INCLUDE) -Isrc -Ibuild/$(BOARD) -ffreestanding \
     -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-unwind-tables \
     -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -ffp-contract=off \

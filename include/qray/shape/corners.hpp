@@ -284,7 +284,7 @@ constexpr Box<N> box_of(const S& s, const Corners<N>& corners)
     return box;
 }
 
-// The point is asked for in the box alone, and the ray's line in the outline: both belong to shapes side by side as rays do.
+// The point is asked for in the box alone, the ray's line in the outline: both belong to shapes side by side as rays do.
 // Only of a ray almost in the plane does the line pass inside elsewhere. Wider by what the point is off, but not beyond
 // box_slack of src/scene/tree_builder.hpp.
 template <HasCorners S, class N>

@@ -12,8 +12,8 @@
 //   surface_of(shape, corners, ray, t, local, point, normal) the point of a hit, and the outward unit normal there
 //   shading_normal(shape, corners, ray, normal)              of a smooth one: unit, not yet turned
 //   normal_of(shape, corners)                                of one with corners: the outward unit normal
-//   reaches(shape, corners, ray, distance)                   of a flat one: does it hold the ray's point there, which is
-//                                                            in its plane?
+//   reaches(shape, corners, ray, distance)                   of a flat one: does it hold the ray's point there,
+//                                                            which is in its plane?
 //   move(shape, corners, motion, moved, moved_corners)       what it is then, with all that is derived; false,
 //                                                            and nothing changes, where it leaves the world or is tiny
 //   box_of(shape, corners)                                   a box that holds it, for trees

@@ -174,9 +174,11 @@ constexpr int crossings_before(const Scene<N, E>& scene, const S& shape, const R
         const LightSurface<N>& surface = scene.light_surfaces[i];
         // The way meets it nowhere else.
         if constexpr (requires { reaches(shape, corners_of(scene), ray, distance); })
-            if (surface.light == ~panel.value && surface.tag == tag_of(shape))
-                return (dot<N>(surface.normal, ray.direction) <= typename N::Cosine{} ? surface.side < 0 : surface.side > 0)
+            if (surface.light == ~panel.value && surface.tag == tag_of(shape)) {
+                const bool from_outside = dot<N>(surface.normal, ray.direction) <= typename N::Cosine{};
+                return (from_outside ? surface.side < 0 : surface.side > 0)
                     && reaches(shape, corners_of(scene), ray, distance);
+            }
     }
     return crossings_before(scene, shape, ray, distance);
 }
