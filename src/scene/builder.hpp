@@ -77,13 +77,14 @@ public:
     }
 
     // The most bits that a shape of this size can have beyond Length's: see Blocks.
-    int fine_for([[maybe_unused]] double size, [[maybe_unused]] int32_t Blocks::*within) const
+    int fine_for([[maybe_unused]] double size, [[maybe_unused]] Blocks::Of Blocks::*of) const
     {
         int fine = 0;
         if constexpr (N::is_fixed) {
             const double with_slack = ldexp(size * frame.scale, N::Length::frac) + N::blocks.slack;
-            fine = N::blocks.least;
-            while (fine < N::blocks.most && ldexp(with_slack, fine + 1) <= N::blocks.*within)
+            const Blocks::Of& block = N::blocks.*of;
+            fine = block.least;
+            while (fine < block.most && ldexp(with_slack, fine + 1) <= block.size)
                 fine++;
         }
         return fine;

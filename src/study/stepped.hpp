@@ -320,14 +320,15 @@ inline Vec<double> Builder<study::Stepped>::surface(const Vec3d& c)
     return study::keep<study::Step::colour>(Vec<double>{c.x, c.y, c.z});
 }
 template <>
-inline int Builder<study::Stepped>::fine_for(double size, int32_t Blocks::*within) const
+inline int Builder<study::Stepped>::fine_for(double size, Blocks::Of Blocks::*of) const
 {
     const Blocks* const blocks = study::widths.blocks;
     if (blocks == nullptr)
         return 0;
     const double with_slack = ldexp(size * frame.scale, study::widths.length) + blocks->slack;
-    int fine = blocks->least;
-    while (fine < blocks->most && ldexp(with_slack, fine + 1) <= blocks->*within)
+    const Blocks::Of& block = blocks->*of;
+    int fine = block.least;
+    while (fine < block.most && ldexp(with_slack, fine + 1) <= block.size)
         fine++;
     return fine;
 }

@@ -78,7 +78,7 @@ QRAY_SHARED constexpr bool unit_short(int32_t x, int32_t y, int32_t z, int32_t* 
 } // namespace detail
 
 struct q16 : FixedNumbers<10, 14, 13, 13, 16> {
-    static constexpr Blocks blocks{0, 10, 8, 32665, 18432};
+    static constexpr Blocks blocks{8, {0, 10, 32665}, {0, 10, 18432}};
     static constexpr int ratio_bits = 15;
     using Span = int32_t; // a component of a direction that is not yet a unit vector
     static constexpr Length length_max{130900};

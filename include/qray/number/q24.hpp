@@ -15,16 +15,16 @@
 //                           2^31, and that it is rounded down by less than 1 is less than what one ulp of the root is worth
 //   a radius                block-scaled with its slack to 368000. What passes the coarse test is not longer than radius and
 //                           slack: that test adds 21 2^-10 and is off by 20, with roundings less than 2688 ulp together
-//   a cone's ball           block-scaled to B <= 147456, eight times that of q16, whose proof holds for these squares
+//   a cone                  is q32's, 2^8 and 2^10 times lengths and unit vectors, with products of 64 bits
 //   a sheared corner        |x dz - z dx| <= |v| |d| < 2^31, rounded: the same for all edges that meet in it, so that
 //                           meshes have no leak; the product of two takes 64 bits
 //   a colour                below 8 in 2^-13, times a share of 14 bits: less than 2^30
 //   a ratio of indices      below 8 in 2^-17, as a above: a bent direction is less than 10 2^25
-// The builder keeps these bounds, as for q16. In a scene that fills it, a picture has 55 dB or more where no edge is missed
-// that a pixel's middle comes within some 2^-16 of a length to.
+// The builder keeps these bounds, as for q16.
 #pragma once
 
 #include "q16.hpp"
+#include "q32.hpp"
 
 namespace qray {
 
@@ -106,7 +106,9 @@ QRAY_INLINE constexpr Wide<product_frac<A, B>, 24> operator*(Fixed<A, 24> a, Fix
 struct q24 : FixedNumbers<16, 20, 13, 17, 24> {
     using Span = int32_t; // a component of a direction that is not yet a unit vector
     static constexpr Length length_max{130900 << 6};
-    static constexpr Blocks blocks{-4, 7, 2688, 368000, 147456};
+    // Cones, whose sums lose more than a step off the surface makes good, are met in q32, and keep its block scale.
+    using Longer = q32;
+    static constexpr Blocks blocks{2688, {-4, 7, 368000}, {8, 18, Longer::blocks.cone.size}};
     static constexpr int ratio_bits = 18;
 
     template <int A>

@@ -10,7 +10,7 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
     static_assert(Unit::frac == 30); // as unit_vector() has
 
     static constexpr Length length_max{INT32_MAX};
-    static constexpr Blocks blocks{0, 10, 1 << 20, 535193190, 40 << 24}; // 1/16, 31.9, 40
+    static constexpr Blocks blocks{1 << 20, {0, 10, 535193190}, {0, 10, 40 << 24}}; // 1/16, 31.9, 40
     // Rounded down: 0 or more if w is.
     QRAY_INLINE static constexpr Length length_below(Moment w) { return {static_cast<int32_t>(w.raw >> Unit::frac)}; }
     template <int A, int B>

@@ -37,10 +37,14 @@ struct FixedScale {
 };
 
 // What is squared is block-scaled first, times 2^fine, fine from `least` to `most`: so that the radius of a ball, and
-// of a cone's ball, with `slack` more for what a coarse test lets pass, stays within these, in ulp.
+// of a cone's ball, with `slack` more for what a coarse test lets pass, stays within `size`, in ulp.
 struct Blocks {
-    int least, most;
-    int32_t slack, ball, cone;
+    struct Of {
+        int least, most;
+        int32_t size;
+    };
+    int32_t slack;
+    Of ball, cone;
 };
 
 // What every system of fixed point has alike: how many bits its quantities have behind the point, and 16 or 32 to hold

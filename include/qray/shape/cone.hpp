@@ -179,6 +179,51 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
     return valid[0] || valid[1];
 }
 
+// What is met in a longer number system (N::Longer): the same values with more bits. What is block-scaled has as many there.
+template <class N>
+concept MetInLonger = requires { typename N::Longer; };
+template <MetInLonger N>
+struct Lengthened {
+    using L = typename N::Longer;
+    static constexpr int lengths = L::Length::frac - N::Length::frac, units = L::Unit::frac - N::Unit::frac;
+
+    static constexpr typename L::Length length(typename N::Length l) { return {l.raw * (1 << lengths)}; }
+    static constexpr typename L::Unit unit(typename N::Unit u) { return {u.raw * (1 << units)}; }
+    static constexpr Point<L> point(const Point<N>& p) { return {length(p.x), length(p.y), length(p.z)}; }
+    static constexpr Direction<L> direction(const Direction<N>& d) { return {unit(d.x), unit(d.y), unit(d.z)}; }
+    static constexpr Ray<L> ray(const Ray<N>& r) { return {point(r.origin), direction(r.direction), r.from, r.outward}; }
+    static constexpr Cone<L> cone(const Cone<N>& s)
+    {
+        return {point(s.middle), direction(s.e1), direction(s.e2), direction(s.axis), {s.rho0.raw}, {s.half.raw},
+                {s.bound.raw}, unit(s.cosine), unit(s.sine), s.fine - lengths, s.tag, {}};
+    }
+    // And back: to the nearest.
+    static constexpr typename N::Length shorter(typename L::Length l) { return {(l.raw + (1 << lengths >> 1)) >> lengths}; }
+    static constexpr typename N::Unit shorter(typename L::Unit u) { return {(u.raw + (1 << units >> 1)) >> units}; }
+};
+
+template <MetInLonger N>
+constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length limit, typename N::Length (&t)[2],
+                       Local<N>& local, typename N::Length (&tau)[2])
+{
+    using Long = Lengthened<N>;
+    typename Long::L::Length both[2]{}, from_near[2]{};
+    Local<typename Long::L> at{};
+    const int found = meetings(Long::cone(s), Long::ray(ray), Long::length(limit), both, at, from_near);
+    local.near = {{at.near.x.raw}, {at.near.y.raw}, {at.near.z.raw}};
+    int n = 0;
+    for (int i = 0; i < found; i++) {
+        t[n] = Long::shorter(both[i]);
+        if (!(t[n] > N::length_zero)) {
+            if (leaves(ray, s.tag) != Leaves::inward)
+                continue;
+            t[n] = N::ulp;
+        }
+        tau[n++] = {from_near[i].raw};
+    }
+    return n;
+}
+
 // The nearest t in (0, limit], or false.
 template <bool Near = false, class N>
 QRAY_INLINE constexpr bool intersect(const Cone<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length limit,
@@ -226,6 +271,20 @@ constexpr void surface_of(const Cone<N>& s, const Corners<N>&, const Ray<N>& ray
     point = s.middle + coarse<N>(from_rounded(w - along<N>(height, n), s.rounded), s.fine);
 }
 
+template <MetInLonger N>
+constexpr void surface_of(const Cone<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length t,
+                          const Local<N>& local, Point<N>& point, Direction<N>& n)
+{
+    using Long = Lengthened<N>;
+    using L = typename Long::L;
+    const Local<L> at{{{local.near.x.raw}, {local.near.y.raw}, {local.near.z.raw}}, {local.offset.raw}};
+    Point<L> p{};
+    Direction<L> u{};
+    surface_of(Long::cone(s), Corners<L>{}, Long::ray(ray), Long::length(t), at, p, u);
+    point = {Long::shorter(p.x), Long::shorter(p.y), Long::shorter(p.z)};
+    n = {Long::shorter(u.x), Long::shorter(u.y), Long::shorter(u.z)};
+}
+
 template <class N>
 constexpr bool move(const Cone<N>& from, const Corners<N>&, const Motion<N>& motion, Cone<N>& to, const MovedCorners<N>&)
 {
@@ -247,7 +306,7 @@ constexpr bool move(const Cone<N>& from, const Corners<N>&, const Motion<N>& mot
     const Length bound = N::coarse(s.bound, s.fine);
     Length most{};
     if constexpr (N::is_fixed)
-        most = {N::blocks.cone << -N::blocks.least};
+        most = {N::blocks.cone.size >> N::blocks.cone.least};
     else
         most = 40;
     if (!motion.valid() || !(bound <= most) || !(s.half > N::length_zero) || !(s.half <= s.bound)

@@ -87,14 +87,15 @@ constexpr bool move(const S<N>& from, const Motion<N>& motion, S<N>& to)
 
 // The most bits that a shape of this size can have beyond Length's: see Blocks.
 template <class N>
-constexpr int block_scale(typename N::Length size, [[maybe_unused]] int32_t Blocks::*within)
+constexpr int block_scale(typename N::Length size, [[maybe_unused]] Blocks::Of Blocks::*of)
 {
     int fine = 0;
     if constexpr (N::is_fixed) {
         const int64_t with_slack = int64_t{size.raw} + N::blocks.slack;
-        fine = N::blocks.least;
-        const int64_t most = int64_t{N::blocks.*within} << -N::blocks.least;
-        while (fine < N::blocks.most && with_slack << (fine + 1 - N::blocks.least) <= most)
+        const Blocks::Of& block = N::blocks.*of;
+        const int up = block.least < 0 ? -block.least : 0;
+        fine = block.least;
+        while (fine < block.most && with_slack << (fine + 1 + up) <= int64_t{block.size} << up)
             fine++;
     }
     return fine;

@@ -56,7 +56,7 @@ struct Host<Cone> : HostOfShape {
     static double range(const Object& o)
     {
         if constexpr (N::is_fixed)
-            return ldexp(reach(o), N::Length::frac + N::blocks.least) / N::blocks.cone;
+            return ldexp(reach(o), N::Length::frac + N::blocks.cone.least) / N::blocks.cone.size;
         else
             return reach(o) / 40;
     }
