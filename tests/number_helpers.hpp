@@ -20,10 +20,10 @@ namespace qray::test {
 
 #ifdef QRAY_LANES_ALONE // tests of lanes: those that have them
 using NumberSystems = ::testing::Types<q32, Float>;
-using AllNumberSystems = NumberSystems;
+using AllButQ24 = NumberSystems;
 #else
-using NumberSystems = ::testing::Types<q16, q32, Float, Double>;
-using AllNumberSystems = ::testing::Types<q16, q24, q32, Float, Double>; // of tests that know q24's bounds
+using NumberSystems = ::testing::Types<q16, q24, q32, Float, Double>;
+using AllButQ24 = ::testing::Types<q16, q32, Float, Double>; // of tests that do not know q24's bounds
 #endif
 
 struct SystemNames {

@@ -21,17 +21,11 @@ Ray<N> ray_from(const Vec3& origin, const Vec3& along, Tag tag, bool outward)
     return ray;
 }
 
-// The block scale that a curved surface of this size may have: at most 2^fine size = 32 is well within Length.
+// The block scale that a ball of this size may have, or a cone's ball.
 template <class N>
-int32_t fine_for(double size)
+int32_t fine_for(double size, Blocks::Of Blocks::*of)
 {
-    int32_t fine = 0;
-    if constexpr (NarrowFixed<N> && !ShortFixed<N>)
-        return block_scale<N>(make<N>::length(size), &Blocks::cone);
-    else if constexpr (N::is_fixed)
-        while (fine < 10 && std::ldexp(size, fine + 1) <= 32)
-            fine++;
-    return fine;
+    return block_scale<N>(make<N>::length(size), of);
 }
 
 // A shape and its corners, if it has any.
@@ -100,7 +94,7 @@ template <class N>
 struct SphereOf : ShapeOf<Sphere, N> {
     using ShapeOf<Sphere, N>::shape;
 
-    SphereOf(const Vec3& centre, double r, Tag tag = make_tag(0, 0)) : SphereOf(centre, r, tag, fine_for<N>(r)) {}
+    SphereOf(const Vec3& centre, double r, Tag tag = make_tag(0, 0)) : SphereOf(centre, r, tag, fine_for<N>(r, &Blocks::ball)) {}
     SphereOf(const Vec3& centre, double r, Tag tag, int32_t fine) : ShapeOf<Sphere, N>(tag)
     {
         shape.centre = make<N>::point(centre);
@@ -139,7 +133,7 @@ struct ConeOf : ShapeOf<Cone, N> {
         const Vec3 other = std::fabs(axis.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
         const Vec3 e1 = unit(cross(other, axis)), e2 = cross(axis, e1);
         const double bound = std::hypot(height / 2, std::fmax(base_radius, apex_radius));
-        shape.fine = fine_for<N>(bound);
+        shape.fine = fine_for<N>(bound, &Blocks::cone);
         const double up = std::ldexp(1, shape.fine);
         shape.middle = M::point((base + apex) * 0.5);
         shape.e1 = M::direction(e1);

@@ -62,16 +62,6 @@ TYPED_TEST(HostileTest, Cone) { expect_steady<TypeParam, ConeTrial>(exact_shape)
 TYPED_TEST(HostileTest, Polygon) { expect_steady<TypeParam, PolygonTrial>(figure); }
 TYPED_TEST(HostileTest, Patch) { expect_steady<TypeParam, PatchTrial>(figure); }
 
-template <template <class> class Trial>
-void expect_steady_in_q24() { expect_steady<qray::q24, Trial>(figure); }
-TEST(HostileQ24, Sphere) { expect_steady_in_q24<SphereTrial>(); }
-TEST(HostileQ24, Plane) { expect_steady_in_q24<PlaneTrial>(); }
-TEST(HostileQ24, Disc) { expect_steady_in_q24<DiscTrial>(); }
-TEST(HostileQ24, Cylinder) { expect_steady_in_q24<CylinderTrial>(); }
-TEST(HostileQ24, Cone) { expect_steady_in_q24<ConeTrial>(); }
-TEST(HostileQ24, Polygon) { expect_steady_in_q24<PolygonTrial>(); }
-TEST(HostileQ24, Patch) { expect_steady_in_q24<PatchTrial>(); }
-
 // Rays of a soak of 10^8 whose chord begins at the surface, close to an apex: rho is small there, and an error of the
 // discriminant counts much more than elsewhere. In q32 they find its end whether or not they name the surface.
 struct Chord {

@@ -43,7 +43,8 @@ TYPED_TEST(RejectTest, NoBallThatIsMetIsTurnedAway)
         bool meets = rho <= value(radius) && (along >= 0 || length(v) <= value(radius));
         if constexpr (NarrowFixed<N>) { // the exact test is no finer, and is what counts
             typename N::Length t{};
-            meets = SphereOf<N>(value(centre), value(radius), make_tag(0, 0), 0).hit(ray, N::length_max, t);
+            const int32_t fine = std::min(0, fine_for<N>(value(radius), &Blocks::ball)); // what is squared must fit
+            meets = SphereOf<N>(value(centre), value(radius), make_tag(0, 0), fine).hit(ray, N::length_max, t);
         }
         const bool away = RejectRay<N>(ray).misses_ball(centre, N::coarse_above(radius, 0));
         met += meets;

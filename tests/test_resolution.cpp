@@ -11,7 +11,7 @@ using namespace qray::test;
 
 template <class N>
 struct ResolutionTest : ::testing::Test {};
-TYPED_TEST_SUITE(ResolutionTest, NumberSystems, SystemNames);
+TYPED_TEST_SUITE(ResolutionTest, AllButQ24, SystemNames);
 
 // In a world of +-62: of coordinates near 62, in floating point.
 template <class N>

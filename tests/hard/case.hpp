@@ -140,20 +140,16 @@ struct Make {
             return {mantissa < INT32_MAX ? static_cast<int32_t>(mantissa) : INT32_MAX, shift};
         }
     }
-    // The block scale of what is no larger than num / den.
-    static constexpr int32_t fine(int64_t num, int64_t den)
+    // num / den in a block scale.
+    static constexpr Length scaled(int64_t num, int64_t den, int32_t fine)
     {
-        int32_t bits = 0;
-        if constexpr (N::is_fixed)
-            while (bits < 10 && (num << (bits + 1)) <= 32 * den)
-                bits++;
-        return bits;
+        return fine < 0 ? number<Length>(num, den << -fine) : number<Length>(num << fine, den);
     }
     static constexpr Sphere<N> sphere(const Point<N>& centre, int64_t r, int64_t over = 1,
                                       Tag tag = make_tag(0, 0))
     {
-        const int32_t up = fine(r, over);
-        const Length radius = number<Length>(r << up, over);
+        const int32_t up = block_scale<N>(number<Length>(r, over), &Blocks::ball);
+        const Length radius = scaled(r, over, up);
         return {centre, radius, inverse(radius), up, tag, {}};
     }
     static constexpr Disc<N> disc(Triple centre, Triple normal, int64_t r)
@@ -165,14 +161,14 @@ struct Make {
     static constexpr Cone<N> cone(int64_t middle, int64_t r, int64_t r_over, int64_t c, int64_t s, int64_t half,
                                   int64_t bound, Tag tag = make_tag(0, 0))
     {
-        const int32_t up = fine(bound, 1);
+        const int32_t up = block_scale<N>(number<Length>(bound), &Blocks::cone);
         return {point({0, 0, middle}),
                 direction(axes[0]),
                 direction(axes[1]),
                 direction(axes[2]),
-                number<Length>((r * c) << up, 5 * r_over),
-                number<Length>(half << up),
-                number<Length>(bound << up),
+                scaled(r * c, 5 * r_over, up),
+                scaled(half, 1, up),
+                scaled(bound, 1, up),
                 number<Unit>(c, 5),
                 number<Unit>(s, 5),
                 up,

@@ -118,8 +118,8 @@ QRAY_CASE(TextureCellsAMillionAwayAreRight)
     LatticeAxis<N> axis{};
     int cells = 15;
     if constexpr (NarrowFixed<N>) {
-        axis.row_x = 1;
-        axis.frac = 10;
+        axis.row_x = 1 << N::dropped;
+        axis.frac = N::Length::frac;
         cells = 0;
     } else if constexpr (N::is_fixed) {
         axis.row_x = 1 << 30;
