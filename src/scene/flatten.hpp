@@ -9,7 +9,7 @@ namespace qray::scene {
 // From so many surfaces on a tree pays on all boards; of fewer, some scenes are drawn faster without. In q16 boxes are
 // wider and a shape's own test is short.
 template <class N>
-inline constexpr uint32_t least_for_tree = NarrowFixed<N> ? 40 : 24;
+inline constexpr uint32_t least_for_tree = ShortFixed<N> ? 40 : 24;
 
 template <class N>
 inline constexpr TreeEntry<N> last_entry{0, 0, 0, UINT16_MAX, UINT16_MAX, UINT16_MAX, TreeEntry<N>::last};
