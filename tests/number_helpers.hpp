@@ -103,7 +103,8 @@ struct make {
     {
         if constexpr (NarrowFixed<N>) { // 16 bits
             constexpr int bits = ShortFixed<N> ? 15 : 18;
-            const int zeros = __builtin_clz(static_cast<uint32_t>(r.raw)), shift = zeros > 32 - bits ? zeros - (32 - bits) : 0;
+            const int zeros = __builtin_clz(static_cast<uint32_t>(r.raw));
+            const int shift = zeros > 32 - bits ? zeros - (32 - bits) : 0;
             return {static_cast<int32_t>(std::lrint(std::ldexp(1, 14 + bits - shift) / r.raw)), shift};
         } else if constexpr (N::is_fixed) {
             const int shift = __builtin_clz(static_cast<uint32_t>(r.raw)) - 1;

@@ -94,7 +94,10 @@ template <class N>
 struct SphereOf : ShapeOf<Sphere, N> {
     using ShapeOf<Sphere, N>::shape;
 
-    SphereOf(const Vec3& centre, double r, Tag tag = make_tag(0, 0)) : SphereOf(centre, r, tag, fine_for<N>(r, &Blocks::ball)) {}
+    SphereOf(const Vec3& centre, double r, Tag tag = make_tag(0, 0))
+        : SphereOf(centre, r, tag, fine_for<N>(r, &Blocks::ball))
+    {
+    }
     SphereOf(const Vec3& centre, double r, Tag tag, int32_t fine) : ShapeOf<Sphere, N>(tag)
     {
         shape.centre = make<N>::point(centre);

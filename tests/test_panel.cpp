@@ -57,7 +57,8 @@ TYPED_TEST(PanelTest, PlacesAreWhereTheSampleShiftsThem)
             const Vec3 text_place = place(at * far, u * far, v * far, n, k % n, k / n, shift);
             const auto expected = builder.frame.point({text_place.x, text_place.y, text_place.z});
             const double ulp = std::ldexp(make<N>::length_ulp(8 * far * builder.frame.scale), lamp.shift);
-            // Half an ulp of the corner, and of each of up to 2 n steps; in q16 and q24 these are finer, and rounded at last.
+            // Half an ulp of the corner, and of each of up to 2 n steps; in q16 and q24 these are finer, and rounded at
+            // last.
             EXPECT_LE(distance(value(lamp.at) * std::ldexp(1, lamp.shift), {expected.x, expected.y, expected.z}),
                       (NarrowFixed<N> ? 0.5 + std::ldexp(n + 0.5, -Panel<N>::fine) : n + 2) * ulp) << i << " " << k;
             k++;

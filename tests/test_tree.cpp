@@ -310,8 +310,8 @@ constexpr Effects pictures(Over tree)
     return e;
 }
 
-// A panel that reaches beyond what it lies in: that is crossed at those places alone that it holds, also by a ray almost
-// in its plane, whose line passes inside of it elsewhere.
+// A panel that reaches beyond what it lies in: that is crossed at those places alone that it holds, also by a ray
+// almost in its plane, whose line passes inside of it elsewhere.
 template <class N, Over tree>
 void expect_crossed_where_a_panel_lies_in_it(const std::string& others)
 {

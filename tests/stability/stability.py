@@ -180,8 +180,8 @@ def problems(readme):
         except ValueError:
             return False
 
-    wanted = [([shape], 8) for shape in SHAPES]
-    wanted += [([f"{s}, {r}"], 8) for s in SHAPES for r in regimes(s)]
+    wanted = [([shape], 2 * len(NUMBERS)) for shape in SHAPES]
+    wanted += [([f"{s}, {r}"], 2 * len(NUMBERS)) for s in SHAPES for r in regimes(s)]
     wanted += [([f"{s}, {r}", n], 10) for s in SHAPES for r in regimes(s) for n in NUMBERS]
     out = []
     for names, values in wanted:

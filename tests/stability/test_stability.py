@@ -34,11 +34,11 @@ class Tables(unittest.TestCase):
             self.assertIn(row.strip("| 0").split(" | ")[0], found[0])
         self.assertEqual(len(stability.problems("")), 1)
 
-    # Seven shapes, three regimes each and a fourth for two of them, four number systems.
+    # Seven shapes, three regimes each and a fourth for two of them, five number systems.
     def test_rows(self):
         lines = made().splitlines()
-        self.assertEqual(sum(line.startswith("| ") and line.count("|") == 13 for line in lines), 1 + 23 * 4)
-        self.assertEqual(sum(line.startswith("| ") and line.count("|") == 10 for line in lines), 2 + 23 + 7)
+        self.assertEqual(sum(line.startswith("| ") and line.count("|") == 13 for line in lines), 1 + 23 * 5)
+        self.assertEqual(sum(line.startswith("| ") and line.count("|") == 12 for line in lines), 2 + 23 + 7)
 
     def test_numbers(self):
         self.assertEqual(stability.per_million(0, 3), "0")

@@ -1,20 +1,22 @@
 // q24, between q16 and q32: lengths of 24 bits and unit vectors of 21, for parts that multiply 32 by 32 bits to 32.
 //
-// Lengths are in 2^-16, unit vectors in 2^-20. Of the product of a length or a unit vector, a, and a unit vector, u, the
-// upper 32 bits are kept, by two products that fit:
+// Lengths are in 2^-16, unit vectors in 2^-20. Of the product of a length or a unit vector, a, and a unit vector, u,
+// the upper 32 bits are kept, by two products that fit:
 //   a (u >> 12) + ((a >> 5) (u & 4095) >> 7)  =  a u / 2^12 - e,  0 <= e < 32
-// as what a >> 5 drops is at most 31, times less than 1, and the last shift drops less than 1. A Moment so is in 2^-24 and
-// wrong by less than 1/8 ulp of a Length, a Cosine in 2^-28 and wrong by less than 2^-23, always downward; a dot product,
-// which shifts the lower parts of its three products together, by three times as much. With every point within 62.5 of the
-// middle of the scene, in these units:
-//   a difference of points  |v| <= 125 2^16; |v.d| <= 125 2^24 (1 + 2^-18) < 2^31; sums of upper parts count modulo 2^32,
-//                           that of the lower ones is at most (|v| / 32 + sqrt(3)) sqrt(3) 4095 < 1.82e9
+// as what a >> 5 drops is at most 31, times less than 1, and the last shift drops less than 1. A Moment so is in 2^-24
+// and wrong by less than 1/8 ulp of a Length, a Cosine in 2^-28 and wrong by less than 2^-23, always downward; a dot
+// product, which shifts the lower parts of its three products together, by three times as much. With every point within
+// 62.5 of the middle of the scene, in these units:
+//   a difference of points  |v| <= 125 2^16; |v.d| <= 125 2^24 (1 + 2^-18) < 2^31; sums of upper parts count modulo
+//                           2^32, that of the lower ones is at most (|v| / 32 + sqrt(3)) sqrt(3) 4095 < 1.82e9
 //   a distance t            at most length_max, so that t d fits for |d| <= 1 + 2^-10: (130900 2^14)(1 + 2^-10) < 2^31
 //   parts of a unit vector  a bent direction's are up to 5/4 each: 3 (5/4)^2 2^28 < 2^31, lower parts 3 (5/4) 2^27
-//   a square                of what is block-scaled to less than 370727: a b / 2^6, by two products; its sum is less than
-//                           2^31, and that it is rounded down by less than 1 is less than what one ulp of the root is worth
-//   a radius                block-scaled with its slack to 368000. What passes the coarse test is not longer than radius and
-//                           slack: that test adds 21 2^-10 and is off by 20, with roundings less than 2688 ulp together
+//   a square                of what is block-scaled to less than 370727: a b / 2^6, by two products; its sum is less
+//                           than 2^31, and that it is rounded down by less than 1 is less than what one ulp of the root
+//                           is worth
+//   a radius                block-scaled with its slack to 368000. What passes the coarse test is not longer than
+//                           radius and slack: that test adds 21 2^-10 and is off by 20, with roundings less than 2688
+//                           ulp together
 //   a cone                  is q32's, 2^8 and 2^10 times lengths and unit vectors, with products of 64 bits
 //   a sheared corner        |x dz - z dx| <= |v| |d| < 2^31, rounded: the same for all edges that meet in it, so that
 //                           meshes have no leak; the product of two takes 64 bits
@@ -30,9 +32,9 @@ namespace qray {
 
 namespace detail {
 
-// The unit vector along (x, y, z) != 0, each component less than 2^31 - 2^15. Each of its components is within 1.54 ulp of
-// 2^-20: 0.5 for (x, y, z) rounded to 21 bits, 0.5 for m to as many, 0.5 for the result, and 2^-5 for what products drop;
-// of which its length has less than 0.5 + (0.5 + 2^-5) sqrt(3).
+// The unit vector along (x, y, z) != 0, each component less than 2^31 - 2^15. Each of its components is within 1.54 ulp
+// of 2^-20: 0.5 for (x, y, z) rounded to 21 bits, 0.5 for m to as many, 0.5 for the result, and 2^-5 for what products
+// drop; of which its length has less than 0.5 + (0.5 + 2^-5) sqrt(3).
 QRAY_SHARED constexpr bool unit_split(int32_t x, int32_t y, int32_t z, int32_t* u)
 {
     // The magnitudes, those of negative numbers less one.
@@ -94,7 +96,8 @@ QRAY_INLINE constexpr Wide<product_frac<A, B>, 24> operator*(Fixed<A, 24> a, Fix
     if constexpr (A == 20 && B != 20) {
         return b * a;
     } else if constexpr (A == 16 && B == 16) {
-        return {static_cast<int32_t>((upper(a.raw, b.raw >> 9) << 3) + static_cast<uint32_t>(a.raw * (b.raw & 511) >> 6))};
+        const auto lower = static_cast<uint32_t>(a.raw * (b.raw & 511) >> 6);
+        return {static_cast<int32_t>((upper(a.raw, b.raw >> 9) << 3) + lower)};
     } else {
         static_assert(B == 20);
         if constexpr (A == 13)
@@ -117,7 +120,9 @@ struct q24 : FixedNumbers<16, 20, 13, 17, 24> {
     QRAY_INLINE static constexpr Wide<product_frac<A, 20>, 24> dot(Fixed<A, 24> ax, Fixed<A, 24> ay, Fixed<A, 24> az,
                                                                    Unit bx, Unit by, Unit bz)
     {
-        const auto upper = [](int32_t a, int32_t u) { return static_cast<uint32_t>(a) * static_cast<uint32_t>(u >> 12); };
+        const auto upper = [](int32_t a, int32_t u) {
+            return static_cast<uint32_t>(a) * static_cast<uint32_t>(u >> 12);
+        };
         const auto lower = [](int32_t a, int32_t u) { return (a >> 5) * (u & 4095); };
         return {static_cast<int32_t>(
             upper(ax.raw, bx.raw) + upper(ay.raw, by.raw) + upper(az.raw, bz.raw)
@@ -140,7 +145,8 @@ struct q24 : FixedNumbers<16, 20, 13, 17, 24> {
     QRAY_INLINE static constexpr Length fine_sub(Moment a, Length b, int32_t fine)
     {
         const int32_t down = Moment::frac - Length::frac - fine;
-        const uint32_t w = static_cast<uint32_t>(a.raw) - (static_cast<uint32_t>(b.raw) << (Moment::frac - Length::frac));
+        constexpr int up = Moment::frac - Length::frac;
+        const uint32_t w = static_cast<uint32_t>(a.raw) - (static_cast<uint32_t>(b.raw) << up);
         return {(static_cast<int32_t>(w) + (1 << (down - 1))) >> down};
     }
     // And back; the scale may be coarser than Length.
@@ -167,8 +173,8 @@ struct q24 : FixedNumbers<16, 20, 13, 17, 24> {
     static constexpr Length root(Area a) { return sqrt(a); }
     static constexpr Unit sqrt_unit(Cosine a) { return {static_cast<int32_t>(isqrt(int64_t{a.raw} * 4096))}; }
 
-    // t = 2^k num / den for k <= most_headroom, within 1 ulp. False where den is 0, t exceeds length_max, or num is 0 and
-    // den next to nothing.
+    // t = 2^k num / den for k <= most_headroom, within 1 ulp. False where den is 0, t exceeds length_max, or num is 0
+    // and den next to nothing.
     template <int A, int B>
     static constexpr bool quotient(Wide<A, 24> num, Wide<B, 24> den, int k, Length& t)
     {

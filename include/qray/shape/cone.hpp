@@ -179,7 +179,8 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
     return valid[0] || valid[1];
 }
 
-// What is met in a longer number system (N::Longer): the same values with more bits. What is block-scaled has as many there.
+// What is met in a longer number system (N::Longer): the same values with more bits. What is block-scaled has as many
+// there.
 template <class N>
 concept MetInLonger = requires { typename N::Longer; };
 template <MetInLonger N>
@@ -191,14 +192,20 @@ struct Lengthened {
     static constexpr typename L::Unit unit(typename N::Unit u) { return {u.raw * (1 << units)}; }
     static constexpr Point<L> point(const Point<N>& p) { return {length(p.x), length(p.y), length(p.z)}; }
     static constexpr Direction<L> direction(const Direction<N>& d) { return {unit(d.x), unit(d.y), unit(d.z)}; }
-    static constexpr Ray<L> ray(const Ray<N>& r) { return {point(r.origin), direction(r.direction), r.from, r.outward}; }
+    static constexpr Ray<L> ray(const Ray<N>& r)
+    {
+        return {point(r.origin), direction(r.direction), r.from, r.outward};
+    }
     static constexpr Cone<L> cone(const Cone<N>& s)
     {
         return {point(s.middle), direction(s.e1), direction(s.e2), direction(s.axis), {s.rho0.raw}, {s.half.raw},
                 {s.bound.raw}, unit(s.cosine), unit(s.sine), s.fine - lengths, s.tag, {}};
     }
     // And back: to the nearest.
-    static constexpr typename N::Length shorter(typename L::Length l) { return {(l.raw + (1 << lengths >> 1)) >> lengths}; }
+    static constexpr typename N::Length shorter(typename L::Length l)
+    {
+        return {(l.raw + (1 << lengths >> 1)) >> lengths};
+    }
     static constexpr typename N::Unit shorter(typename L::Unit u) { return {(u.raw + (1 << units >> 1)) >> units}; }
 };
 
@@ -252,8 +259,8 @@ QRAY_INLINE constexpr int crossings(const Cone<N>& s, const Corners<N>&, const R
 // surface along it: where a ray grazes, or is nearly parallel to a generator, its t alone would leave that
 // some ulp off.
 template <class N>
-constexpr void surface_of(const Cone<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length, const Local<N>& local,
-                          Point<N>& point, Direction<N>& n)
+constexpr void surface_of(const Cone<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length,
+                          const Local<N>& local, Point<N>& point, Direction<N>& n)
 {
     const Point<N> w = local.near + along<N>(local.offset, ray.direction);
     const auto z = N::length(dot<N>(w, s.axis));
@@ -286,7 +293,8 @@ constexpr void surface_of(const Cone<N>& s, const Corners<N>&, const Ray<N>& ray
 }
 
 template <class N>
-constexpr bool move(const Cone<N>& from, const Corners<N>&, const Motion<N>& motion, Cone<N>& to, const MovedCorners<N>&)
+constexpr bool move(const Cone<N>& from, const Corners<N>&, const Motion<N>& motion, Cone<N>& to,
+                    const MovedCorners<N>&)
 {
     using Length = typename N::Length;
     Cone<N> s = from;
@@ -318,9 +326,10 @@ constexpr bool move(const Cone<N>& from, const Corners<N>&, const Motion<N>& mot
     // No point of it is farther from the middle than its ball, nor from the axis than that lets it be.
     if (!ball_in_world<N>(s.middle, bound)) {
         Length rim{};
-        if constexpr (N::is_fixed)
-            rim = N::coarse_below({static_cast<int32_t>(isqrt(wide_square(s.bound.raw) - wide_square(s.half.raw)))}, s.fine);
-        else
+        if constexpr (N::is_fixed) {
+            const auto square = wide_square(s.bound.raw) - wide_square(s.half.raw);
+            rim = N::coarse_below({static_cast<int32_t>(isqrt(square))}, s.fine);
+        } else
             rim = N::sqrt(s.bound * s.bound - s.half * s.half);
         if (!disc_in_world<N>(s.middle + end, s.axis, rim) || !disc_in_world<N>(s.middle - end, s.axis, rim))
             return false;

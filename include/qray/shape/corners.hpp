@@ -284,9 +284,9 @@ constexpr Box<N> box_of(const S& s, const Corners<N>& corners)
     return box;
 }
 
-// The point is asked for in the box alone, the ray's line in the outline: both belong to shapes side by side as rays do.
-// Only of a ray almost in the plane does the line pass inside elsewhere. Wider by what the point is off, but not beyond
-// box_slack of src/scene/tree_builder.hpp.
+// The point is asked for in the box alone, the ray's line in the outline: both belong to shapes side by side as rays
+// do. Only of a ray almost in the plane does the line pass inside elsewhere. Wider by what the point is off, but not
+// beyond box_slack of src/scene/tree_builder.hpp.
 template <HasCorners S, class N>
 constexpr bool reaches(const S& s, const Corners<N>& corners, const Ray<N>& ray, typename N::Length distance)
 {
@@ -296,7 +296,7 @@ constexpr bool reaches(const S& s, const Corners<N>& corners, const Ray<N>& ray,
     if constexpr (N::is_fixed)
         slack.raw = 1 << (N::Length::frac - (NarrowFixed<N> ? 5 : 14));
     else
-        slack = 0x1p-14f;
+        slack = N::fraction(1, 1 << 14);
     const Point<N> wider{slack, slack, slack};
     Box<N> box = box_of(s, corners);
     box = {box.low - wider, box.high + wider};
