@@ -9,6 +9,9 @@ ifeq ($(wildcard $(FR_CODE)),)
 $(error there is no animation $(ANIMATION); they are: $(basename $(notdir $(wildcard src/firmware/animations/*.cpp))))
 endif
 FR_MOVES   := $(shell sed -n 's,^// Moves: ,,p' $(FR_CODE))
+ifeq ($(strip $(FR_MOVES)),)
+$(error $(FR_CODE) does not say what moves; expected a line like // Moves: spheres,lights)
+endif
 FR_DEFINES := -DQRAY_FRAMES=$(FRAMES) -DQRAY_ANIMATION='"firmware/animations/$(ANIMATION).cpp"'
 FR_NAME    := $(basename $(notdir $(SCENE)))-$(ANIMATION)
 FR_STEM     = build/frames/$(FR_NAME)-$(or $(NUMBER),q32)

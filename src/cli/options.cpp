@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <algorithm>
 #include <iterator>
 
 namespace qray::cli {
@@ -169,8 +170,10 @@ void print_help(Command command)
                  "Says why a pixel of a scene ('-': standard input), X from the left and Y from the top, has its\n"
                  "colour: the tree of rays, what each meets, what each light adds or what blocks it.\n");
     for (const Option& o : table)
-        if (has(o, command))
-            printf("  %-9s %-11s %s\n", o.name, o.value != nullptr ? o.value : "", o.help);
+        if (has(o, command)) {
+            const int name = std::max(9, static_cast<int>(strlen(o.name)));
+            printf("  %-9s %-*s %s\n", o.name, 20 - name, o.value != nullptr ? o.value : "", o.help);
+        }
     puts("  -h, --help            this\n"
          "  --version\n");
     puts(draws ? "example: qray scenes/showcase.nff -s 640x480 -r 4 -o picture.ppm\n"

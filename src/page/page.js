@@ -411,7 +411,7 @@ function show_frontier() {
     }).sort((p, q) => p.instructions - q.instructions);
     let best = -Infinity;
     for (const p of points) {
-        p.best = p.db > best + 0.1; // less is chance
+        p.best = p.db > best + 0.5; // less is chance
         best = Math.max(best, p.db);
     }
     const c = cost(shown.board, 'q32') ?? {}, scenes = Object.keys(data.costs[shown.board].q32?.rays ?? {});

@@ -22,7 +22,7 @@ def table(report):
         cells = [cell.strip() for cell in line.split("|")[1:-1]]
         if title := re.match(r"`scenes/(\S+)\.nff`", line):
             scene = title[1]
-        elif "board" in cells or not cells:
+        elif "board" in cells or "core" in cells or not cells:
             head = cells
         elif head and not set("".join(cells)) <= set("-:"):
             yield dict(zip(head, cells), scene=scene)
@@ -43,6 +43,11 @@ def costs():
         both = [sum(count(cell) for head, cell in row.items() if str(head).endswith(f"{what}/pixel"))
                 for what in ("cycles", "instructions")]
         found[names[row["board"]]][row["number"]]["cycles"] = round(both[0] / both[1], 3)
+    for row in table("time"): # cores that the study has not
+        own = found[names[row["core"]]].get(row["number"])
+        if own and own["cycles"] == 1:
+            cycles = count(row["cycles/pixel"].split("(")[0])
+            own["cycles"] = round(cycles / count(row["instructions/pixel"]), 3)
     if not all(found.values()):
         sys.exit(f"{STUDY}: no table of boards with instructions a ray for each of {', '.join(BOARDS.values())}")
     return found
