@@ -291,7 +291,7 @@ private:
         for (uint32_t i = 0; i < d.fill_count; i++) {
             const Fill& f = d.fills[i];
             const Vec3d ambient = d.radiosity > 0 ? Vec3d{} : d.ambient * f.ambient; // or in light maps
-            s.mattes.push() = {Convert<N>::direction(f.colour), s.colour(ambient + grey(f.emission)),
+            s.mattes.push() = {Convert<N>::surface(f.colour), s.colour(ambient + grey(f.emission)),
                                Convert<N>::unit(f.diffuse)};
             s.highlights.push() = {Convert<N>::unit(f.highlight), Convert<N>::shine(f.shine)};
             s.mirrors.push() = {Convert<N>::unit(f.mirror)};

@@ -37,6 +37,7 @@ struct Convert {
         return {number<T>(v.x), number<T>(v.y), number<T>(v.z)};
     }
     static Direction<N> direction(const Vec3d& d) { return {unit(d.x), unit(d.y), unit(d.z)}; }
+    static Vec<typename N::Unit> surface(const Vec3d& c) { return direction(c); } // its colour
     // p less its rounding, in units of 2^-fine ulp.
     static Rounded<N> rounded([[maybe_unused]] const Vec3d& p, [[maybe_unused]] int fine)
     {

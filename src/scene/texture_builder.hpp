@@ -93,7 +93,7 @@ private:
             return Convert<N>::axis(along * (1 / t.size), frame.origin, frame.scale, offset, wraps);
         }
 
-        Vec<typename N::Unit> colour() const { return Convert<N>::direction(t.colour); }
+        Vec<typename N::Unit> colour() const { return Convert<N>::surface(t.colour); }
         // Cells along x, y and z; of y so many to a size.
         Lattice<N> lattice(bool clean, int courses = 1) const
         {

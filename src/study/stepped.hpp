@@ -315,7 +315,7 @@ inline LatticeAxis<study::Stepped> Convert<study::Stepped>::axis(const Vec3d& ro
     return {kept(a.row_x), kept(a.row_y), kept(a.row_z), a.inside, a.index, a.offset};
 }
 template <>
-inline Vec<double> Storage<study::Stepped>::colour(const Vec3d& c) const
+inline Vec<double> Convert<study::Stepped>::surface(const Vec3d& c)
 {
     return study::keep<study::Step::colour>(Vec<double>{c.x, c.y, c.z});
 }
