@@ -328,11 +328,11 @@ TEST(ConeOfQ32, MiddleIsFinerThanAnUlp)
     using M = make<N>;
     const double r = 1.0 / 64, ulp = std::ldexp(1, -24), shift = 0.375 * ulp;
     ConeOf<N> s({0.25, -0.5 - r, 40}, r, {0.25, -0.5 + r, 40}, r);
-    ASSERT_EQ(s.shape.fine, 10);
-    s.shape.rounded = {-384, 384, 0}; // the rounded middle less the exact one, in 2^-34
+    ASSERT_EQ(s.shape.fine, 8); // 2^8 (r sqrt(2) + 1/16) is below 40, twice that is not
+    s.shape.rounded = {-96, 96, 0}; // the rounded middle less the exact one, in 2^-32
     Vec3 q, n;
     s.surface(M::ray({0.25, -0.5, 0}, {0, 0, 1}), q, n);
-    EXPECT_NEAR(n.x, -shift / r, std::ldexp(2, -34) / r); // two roundings in the block scale
+    EXPECT_NEAR(n.x, -shift / r, std::ldexp(2, -32) / r); // two roundings in the block scale
     EXPECT_EQ(n.y, 0);
     EXPECT_NEAR(n.z, -1, 2 * M::unit_ulp());
     EXPECT_EQ(q.x, 0.25);
