@@ -221,15 +221,13 @@ def accuracy_report():
             f"{size.replace('x', ' × ')}:\n\n" + table(["scene"] + numbers, rows))
 
 
-# These two were not measured again since q24 came; when they are, runs.numbers() it is again.
-LONG_KNOWN = ["q16", "q32", "float", "double"]
 REPORTS = {
     "time": (time_report, lambda: [f"| {short} | {n} |" for short in runs.BOARDS.values() for n in runs.numbers()]),
     "accuracy": (accuracy_report,
-                 lambda: judged() + [f"| {n} |" for n in LONG_KNOWN]),
+                 lambda: judged() + [f"| {n} |" for n in runs.numbers()]),
     "conclusions": (conclusions_report, lambda: ["figures/m0.svg"]),
     "study": (study_report, lambda: [f"figures/{s.lower()}.svg" for b, s in runs.BOARDS.items()
                                      if b in study_file.BOARDS]
-              + [f"| {runs.BOARDS[b]} | {n} |" for b in study_file.BOARDS for n in LONG_KNOWN]
+              + [f"| {runs.BOARDS[b]} | {n} |" for b in study_file.BOARDS for n in runs.numbers()]
               + [figures.name_of(s) for s in study_file.SCENES]),
 }
