@@ -9,7 +9,7 @@ using namespace qray::test;
 
 template <class N>
 struct Catalogue : ::testing::Test {};
-TYPED_TEST_SUITE(Catalogue, AllButQ24, SystemNames); // sums of its own overflow there
+TYPED_TEST_SUITE(Catalogue, NumberSystems, SystemNames);
 
 #define QRAY_TEST(name)                                                                                 \
     TYPED_TEST(Catalogue, name)                                                                         \

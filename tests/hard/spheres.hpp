@@ -119,6 +119,15 @@ bool passes_within(const Sphere<N>& s, const Ray<N>& ray, bool& certain)
     return inside;
 }
 
+template <class N>
+bool shorter_than_1(const Point<N>& v)
+{
+    if constexpr (N::is_fixed) // a square of q24 does not hold all
+        return wide_norm2(v.x.raw, v.y.raw, v.z.raw) < uint64_t{1} << (2 * N::Length::frac);
+    else
+        return norm2<N>(v) < 1;
+}
+
 // Rays of any direction that pass the edge of a sphere of r at 55 within some steps.
 template <class N>
 void aim_at_the_edge(Check& check, int64_t num, int64_t den, int64_t steps)
@@ -135,7 +144,7 @@ void aim_at_the_edge(Check& check, int64_t num, int64_t den, int64_t steps)
         // Across d: other - (other.d) d, but for roundings, which do not matter.
         const Point<N> other = any();
         const Point<N> aside = other - along<N>(N::length(dot<N>(other, d)), d);
-        if (norm2<N>(aside) < number<Length>(1) * number<Length>(1) || !normalise<N>(aside, n))
+        if (shorter_than_1<N>(aside) || !normalise<N>(aside, n))
             continue;
         const Triple centre{random.in(-9, 9), random.in(-9, 9), random.in(-9, 9)};
         const Sphere<N> s = M::sphere(M::point(centre), num, den);
