@@ -30,7 +30,7 @@ struct SystemNames {
     template <class N>
     static std::string GetName(int)
     {
-        return scene::number_name<N>();
+        return scene::number_names_of<N>().name;
     }
 };
 

@@ -171,7 +171,7 @@ private:
                 snprintf(error.text, sizeof error.text,
                          "%s has lengths in steps of %.3g where planes reach as far as %.6g, and the scene's radius "
                          "of %.3g is less than %.0f of them; expected a nearer 'far', or another number system",
-                         number_name<N>(), step, frame.far, frame.radius, Limits::narrow_radius);
+                         number_names_of<N>().name, step, frame.far, frame.radius, Limits::narrow_radius);
                 return false;
             }
             for (uint32_t i = 0; i < d.fill_count; i++)
@@ -181,7 +181,7 @@ private:
                     snprintf(error.text, sizeof error.text,
                              "%s has lengths in steps of %.3g here, and a texture's size of %.3g is less than "
                              "1/%.0f of one; expected a larger one, or another number system",
-                             number_name<N>(), step, t.size, 1 / Limits::narrow_cell);
+                             number_names_of<N>().name, step, t.size, 1 / Limits::narrow_cell);
                     return false;
                 }
         }

@@ -120,7 +120,7 @@ private:
     {
         if (e.shapes() != 0)
             out.put("using qray::make_tag; // place in the scene file, material\n");
-        out.print("using Number = qray::%s;\n", number_type<N>());
+        out.print("using Number = qray::%s;\n", number_names_of<N>().type);
         if constexpr (N::is_fixed)
             out.print("// Lengths are in 2^-%d, unit vectors and coefficients in 2^-%d, light in 2^-%d.\n",
                       N::Length::frac, N::Unit::frac, N::Colour::frac);

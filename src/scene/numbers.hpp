@@ -4,23 +4,18 @@
 #include <qray/vector/ray.hpp>
 
 #define QRAY_NUMBERS(DO) DO(q16, q16) DO(q24, q24) DO(q32, q32) DO(Float, float) DO(Double, double)
+#define QRAY_NUMBERS_SAID "q16, q24, q32, float or double"
 
 namespace qray::scene {
 
+struct NumberNames {
+    const char *type, *name;
+};
 #define QRAY_NUMBER(Type, name) \
     if constexpr (Is<N, Type>) \
-        return #Type;
+        return NumberNames{#Type, #name};
 template <class N>
-constexpr const char* number_type()
-{
-    QRAY_NUMBERS(QRAY_NUMBER)
-}
-#undef QRAY_NUMBER
-#define QRAY_NUMBER(Type, name) \
-    if constexpr (Is<N, Type>) \
-        return #name;
-template <class N>
-constexpr const char* number_name()
+constexpr NumberNames number_names_of()
 {
     QRAY_NUMBERS(QRAY_NUMBER)
 }

@@ -91,26 +91,14 @@ Meetings<R> meet_figure(const qray::Point<N>* corners, uint32_t count, const qra
     return m;
 }
 
-template <class N>
-struct PolygonTrial {
-    static constexpr const char* name = "polygon";
+// What polygons and patches have alike: the one shape in its table, and the figure that it was made of.
+template <class N, template <class> class Shape, qray::scene::Array<Shape<N>> qray::scene::Storage<N>::*table>
+struct FigureTrial {
     static constexpr bool curved = false;
-    static constexpr Effects effects{.polygon = true};
     Bench<N> bench;
-    const qray::Polygon<N>& shape = bench.storage.polygons.data[0];
+    const Shape<N>& shape = (bench.storage.*table).data[0];
     Figure figure;
 
-    void make(Random& random, Regime regime)
-    {
-        do {
-            figure.make(random, regime, 3 + random.below(10));
-            auto o = bench.object(qray::Kind::polygon);
-            o.count = figure.count;
-            for (uint32_t i = 0; i < o.count; i++)
-                bench.from.vertices[i] = figure.corners[i];
-            bench.build(o);
-        } while (bench.storage.polygons.count == 0);
-    }
     qray::Ray<N> aim(Random& random, Regime regime) const { return figure.aim<N>(random, regime); }
     template <class R, class M>
     Meetings<R> meet(const qray::Ray<M>& ray) const
@@ -121,40 +109,48 @@ struct PolygonTrial {
     {
         return dot(p - exact3<Wide>(bench.storage.vertices.data[0]), exact3<Wide>(shape.normal));
     }
+
+protected:
+    // Until the builder leaves one in.
+    template <class Normals>
+    void make(Random& random, Regime regime, qray::Kind kind, uint32_t least, uint32_t more, Normals normals)
+    {
+        do {
+            figure.make(random, regime, least + (more > 0 ? random.below(more) : 0));
+            auto o = bench.object(kind);
+            o.count = figure.count;
+            for (uint32_t i = 0; i < o.count; i++) {
+                bench.from.vertices[i] = figure.corners[i];
+                normals(bench.from.normals[i]);
+            }
+            bench.build(o);
+        } while ((bench.storage.*table).count == 0);
+    }
 };
 
 template <class N>
-struct PatchTrial {
-    static constexpr const char* name = "patch";
-    static constexpr bool curved = false;
-    static constexpr Effects effects{.patch = true};
-    Bench<N> bench;
-    const qray::Patch<N>& shape = bench.storage.patches.data[0];
-    Figure figure;
+struct PolygonTrial : FigureTrial<N, qray::Polygon, &qray::scene::Storage<N>::polygons> {
+    static constexpr const char* name = "polygon";
+    static constexpr Effects effects{.polygon = true};
 
     void make(Random& random, Regime regime)
     {
-        using namespace qray::scene;
-        do {
-            figure.make(random, regime, 3);
-            auto o = bench.object(qray::Kind::patch);
-            o.count = 3;
-            for (uint32_t i = 0; i < 3; i++) {
-                bench.from.vertices[i] = figure.corners[i];
-                bench.from.normals[i] = figure.normal + in_ball(random, 0.8);
-            }
-            bench.build(o);
-        } while (bench.storage.patches.count == 0);
+        PolygonTrial::FigureTrial::make(random, regime, qray::Kind::polygon, 3, 10, [](Double3&) {});
     }
-    qray::Ray<N> aim(Random& random, Regime regime) const { return figure.aim<N>(random, regime); }
-    template <class R, class M>
-    Meetings<R> meet(const qray::Ray<M>& ray) const
+};
+
+template <class N>
+struct PatchTrial : FigureTrial<N, qray::Patch, &qray::scene::Storage<N>::patches> {
+    static constexpr const char* name = "patch";
+    static constexpr Effects effects{.patch = true};
+
+    void make(Random& random, Regime regime)
     {
-        return meet_figure<R, N>(bench.storage.vertices.data, 3, shape.normal, ray);
-    }
-    Wide outside(const Vec3<Wide>& p) const
-    {
-        return dot(p - exact3<Wide>(bench.storage.vertices.data[0]), exact3<Wide>(shape.normal));
+        const auto beside = [&](Double3& normal) {
+            using namespace qray::scene;
+            normal = this->figure.normal + in_ball(random, 0.8);
+        };
+        PatchTrial::FigureTrial::make(random, regime, qray::Kind::patch, 3, 0, beside);
     }
 };
 

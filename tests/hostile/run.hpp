@@ -29,7 +29,7 @@ struct Row {
 template <class N>
 constexpr const char* system_name()
 {
-    return qray::scene::number_name<N>();
+    return qray::scene::number_names_of<N>().name;
 }
 
 template <class N, template <class> class Trial, template <class, template <class> class> class Beside = Nobody,

@@ -184,12 +184,6 @@ struct q16 : FixedNumbers<10, 14, 13, 13, 16> {
         z = z - unit(z * h);
     }
 
-    // Block scaling: the largest k with 2^k |a|, 2^k |b|, 2^k |c| all below 1.
-    template <int F>
-    static constexpr int headroom(Wide<F, 16> a, Wide<F, 16> b, Wide<F, 16> c)
-    {
-        return count_leading_zeros(magnitude(a.raw) | magnitude(b.raw) | magnitude(c.raw)) - (32 - F);
-    }
     // Three areas of one sign (rounding may leave one beyond 0) as weights in their proportion, the largest
     // near 1. False where all are 0.
     template <int F>

@@ -181,7 +181,7 @@ struct q24 : FixedNumbers<16, 20, 13, 17, 24> {
         return quotient(num.raw, den.raw, k + B - A + Length::frac, t.raw);
     }
 
-    // The direction (x, y, z), of any length but 0, as a unit vector: each component within 1 ulp. False for 0.
+    // The direction (x, y, z), of any length but 0, as a unit vector: see unit_split(). False for 0.
     static constexpr bool normalise(int32_t x, int32_t y, int32_t z, Unit& ux, Unit& uy, Unit& uz)
     {
         int32_t u[3];
@@ -223,13 +223,6 @@ struct q24 : FixedNumbers<16, 20, 13, 17, 24> {
     {
         constexpr int32_t limit = int32_t{1} << (Cosine::frac - 10);
         return limit > c.raw && -limit < c.raw;
-    }
-
-    // Block scaling: the largest k with 2^k |a|, 2^k |b|, 2^k |c| all below 1.
-    template <int F>
-    static constexpr int headroom(Wide<F, 24> a, Wide<F, 24> b, Wide<F, 24> c)
-    {
-        return count_leading_zeros(magnitude(a.raw) | magnitude(b.raw) | magnitude(c.raw)) - (32 - F);
     }
 
     // What 14 bits tell as well, is as in q16.

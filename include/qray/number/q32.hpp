@@ -173,13 +173,6 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
         z = z - unit(z * h);
     }
 
-    // Block scaling: the largest k with 2^k |a|, 2^k |b|, 2^k |c| all below 1.
-    template <int F>
-    static constexpr int headroom(Wide<F, 32> a, Wide<F, 32> b, Wide<F, 32> c)
-    {
-        const uint64_t m = magnitude(int64_t{a.raw}) | magnitude(int64_t{b.raw}) | magnitude(int64_t{c.raw});
-        return count_leading_zeros(m) - (64 - F);
-    }
     // Three areas of one sign (rounding may leave one beyond 0) as weights in their proportion, the largest
     // near 1. False where all are 0.
     static constexpr bool weights(Area a, Area b, Area c, Unit& wa, Unit& wb, Unit& wc)

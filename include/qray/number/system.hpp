@@ -100,6 +100,14 @@ struct FixedNumbers {
     // Beyond this scale unit vectors know no more of each other.
     static constexpr int most_headroom = UnitFrac;
 
+    // Block scaling: the largest k with 2^k |a|, 2^k |b|, 2^k |c| all below 1.
+    template <int F>
+    static constexpr int headroom(Wide<F, Bits> a, Wide<F, Bits> b, Wide<F, Bits> c)
+    {
+        return count_leading_zeros(magnitude(a.raw) | magnitude(b.raw) | magnitude(c.raw))
+            - (8 * static_cast<int>(sizeof a) - F);
+    }
+
     // eta x, clamped to +-5/4: a bent direction longer than 1 is totally reflected, however long.
     QRAY_INLINE static constexpr Unit bent(Eta eta, Unit x)
     {
