@@ -1,5 +1,5 @@
-"""What it costs on boards to move something: a firmware that draws one pixel a frame and moves so many times before it,
-less one that moves nothing; and a whole frame."""
+"""What it costs on boards to move something: a firmware that draws one pixel a frame, of the background, and moves so
+many times before it, less one that moves nothing; and a whole frame."""
 
 import hashlib
 import math
@@ -10,7 +10,9 @@ from settings import fixed_numbers
 from text import count, table
 
 FOLDER = "build/study/moving"
-SCENE, WITHIN, TIMES, FRAMES = f"{FOLDER}/moves.nff", "-7,-1,-7,7,7,7", 16, 4
+WITHIN, TIMES, FRAMES = "-7,-1,-7,7,7,7", 16, 4
+# The scene by what is seen of it, and where the eye looks for that.
+SCENES = {f"{FOLDER}/moves.nff": "0 1 0", f"{FOLDER}/moves_behind.nff": "0 4 9"}
 BOARDS = ["microbit", "mps2_an385", "rv32_virt"]
 TURN = "motion.about(scene::view.at).turn(scene::view.up, qray::part_of_turn(frame * {times} + i, 97));"
 CORNERS = ("qray::Corners<N>{{scene::first_vertices.data, scene::first_normals.data}}, motion, scene::{0}[0], "
@@ -34,13 +36,13 @@ MOVES = {
 }
 
 
-def scene():
+def scene(at_what):
     """A ball, a cone, a polygon and a ball of 48 triangles, lit by one lamp."""
     def at(ring, k):
         polar, around = math.pi * ring / 4, 2 * math.pi * k / 12
         n = (math.sin(polar) * math.cos(around), math.cos(polar), math.sin(polar) * math.sin(around))
         return " ".join(f"{v:.4f}" for v in (1.5 * n[0], 1 + 0.75 * n[1], 2 + 0.75 * n[2]) + n)
-    lines = ["v from 0 3 6  at 0 1 0  up 0 1 0  angle 50  hither 0  resolution 24 18", "b 0.3 0.4 0.6", "l 3 6 4",
+    lines = [f"v from 0 3 6  at {at_what}  up 0 1 0  angle 50  hither 0  resolution 24 18", "b 0.3 0.4 0.6", "l 3 6 4",
              "material diffuse 0.8", "plane 0 0 0  0 1 0", "s -2 1 0 0.75", "c 2 0.5 1 0.5  2 2 1 0.25",
              "p 4  -1 2 -2  1 2 -2  1 4 -2  -1 4 -2"]
     for k in range(12):
@@ -65,14 +67,16 @@ def animation(what, times=TIMES):
 
 def report():
     os.makedirs(FOLDER, exist_ok=True)
-    with open(SCENE, "w") as file:
-        file.write(scene())
+    for path, at_what in SCENES.items():
+        with open(path, "w") as file:
+            file.write(scene(at_what))
+    seen, behind = SCENES
     columns = [(board, number) for board in BOARDS for number in fixed_numbers()]
 
-    def run(board, number, what, size="1x1"):
-        return runs.Run(board, SCENE, number, size, ANIMATION=animation(what), FRAMES=FRAMES, WITHIN=WITHIN)
-    plan = {(what, *column): run(*column, what) for what in ["", *MOVES.values()] for column in columns}
-    whole = {column: run(*column, "", "24x18") for column in columns}
+    def run(board, number, what, path, size):
+        return runs.Run(board, path, number, size, ANIMATION=animation(what), FRAMES=FRAMES, WITHIN=WITHIN)
+    plan = {(what, *column): run(*column, what, behind, "1x1") for what in ["", *MOVES.values()] for column in columns}
+    whole = {column: run(*column, "", seen, "24x18") for column in columns}
     runs.perform([*plan.values(), *whole.values()])
 
     def cost(run):
