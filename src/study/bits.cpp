@@ -1,5 +1,5 @@
 // What each bit of each step buys (stepped.hpp), as JSON: squared differences to the picture in double.
-//   bits OPTIONS SCENE     options of qray
+//   bits OPTIONS SCENE     options of qray; -s, a size, is asked for
 #include "../cli/draw.hpp"
 #include "../cli/input.hpp"
 #include "../cli/renderer.hpp"
@@ -16,6 +16,12 @@ namespace qray::study {
 namespace {
 
 constexpr int least_bits = 4, most_bits = 24, bits_step = 2;
+// What a number system reaches is measured in a picture that has so many times the columns and the rows: in a small
+// one, a single pixel more or less beside an edge may be 10 dB.
+constexpr uint32_t larger = 4;
+// Where a step shows something else in fewer pixels than that, it is asked with fewer bits, but not with so few that
+// shades are off by as much as what moves.
+constexpr int enough = 16, fewer_bits[] = {0, 4, 8}, least_fewer = 8;
 
 scene::Description description;
 cli::Options options;
@@ -23,7 +29,7 @@ cli::Built built;
 
 using Picture = std::vector<uint8_t>;
 Picture truth;
-bool first_number = true;
+bool has_step[steps], first_number = true;
 
 bool draw(const cli::Renderer& renderer, Picture& rgb)
 {
@@ -53,9 +59,10 @@ bool draw(const Widths& with, Picture& rgb)
     return true;
 }
 
-// Squared differences to the true picture: of bytes that are off by up to 2, and of others, which show something else.
+// Squared differences to the true picture: of bytes that are off by up to 2, and of others, which show something else,
+// and how many pixels have such.
 struct Squares {
-    int64_t shade = 0, other = 0;
+    int64_t shade = 0, other = 0, pixels = 0;
 };
 
 template <class With>
@@ -65,9 +72,14 @@ Squares squares(const With& with)
     Squares sum;
     if (!draw(with, rgb))
         abort(); // it was drawn before, or its number system holds it
-    for (size_t i = 0; i < rgb.size(); i++) {
-        const int off = rgb[i] - truth[i];
-        (off * off <= 4 ? sum.shade : sum.other) += off * off;
+    for (size_t i = 0; i < rgb.size(); i += 3) {
+        bool is_other = false;
+        for (size_t k = i; k < i + 3; k++) {
+            const int off = rgb[k] - truth[k];
+            (off * off <= 4 ? sum.shade : sum.other) += off * off;
+            is_other = is_other || off * off > 4;
+        }
+        sum.pixels += is_other;
     }
     return sum;
 }
@@ -80,7 +92,7 @@ Squares squares(Step step, int bits)
 }
 
 void print(int bits) { printf("%d", bits); }
-void print(const Squares& s) { printf("[%" PRId64 ", %" PRId64 "]", s.shade, s.other); }
+void print(const Squares& s) { printf("[%" PRId64 ", %" PRId64 ", %" PRId64 "]", s.shade, s.other, s.pixels); }
 template <class F>
 void print_list(int count, F f)
 {
@@ -91,33 +103,68 @@ void print_list(int count, F f)
     putchar(']');
 }
 
-// What a number system reaches, and what its widths say: all steps rounded at once, and each alone.
+// The widths that a number system in fixed point has for this scene; false where that does not fit it.
 template <class N>
-    requires(!N::is_fixed)
-void print_number(cli::Number)
+bool own_widths(cli::Number number, Widths& w)
 {
-}
-template <class N>
-void print_number(cli::Number number)
-{
-    const cli::Renderer& renderer = *cli::renderers[static_cast<int>(number)];
     scene::Error error;
-    if (!renderer.build(description, options.settings, built, error))
-        return;
-    printf("%s\"%s\": {\"reached\": ", first_number ? "" : ", ", cli::number_names[static_cast<int>(number)]);
+    if (!cli::renderers[static_cast<int>(number)]->build(description, options.settings, built, error))
+        return false;
+    if constexpr (N::is_fixed)
+        w = widths_of<N>(cli::storage_of<N>().exposure);
+    return N::is_fixed;
+}
+
+void print_name(cli::Number number)
+{
+    printf("%s\"%s\": ", first_number ? "" : ", ", cli::number_names[static_cast<int>(number)]);
     first_number = false;
-    print(squares(renderer));
-    const Widths own = widths_of<N>(cli::storage_of<N>().exposure);
-    printf(", \"together\": ");
-    print(squares(own));
-    printf(", \"alone\": ");
-    print_list(steps, [&own](int i) {
-        Widths w = own;
-        for (int k = 0; k < steps; k++)
-            w.bits[k] = k == i ? own.bits[k] : exact;
-        return squares(w);
-    });
-    putchar('}');
+}
+
+// What it reaches, and what its widths say: all steps rounded at once.
+template <class N>
+void print_reached(cli::Number number)
+{
+    Widths own;
+    if (!own_widths<N>(number, own))
+        return;
+    print_name(number);
+    print_list(2, [&](int i) { return i == 0 ? squares(*cli::renderers[static_cast<int>(number)]) : squares(own); });
+}
+
+// Each step alone, in its own width and in the fewer bits that show what is other in enough pixels: a list of both, and
+// how many bits fewer.
+template <class N>
+void print_alone(cli::Number number)
+{
+    Widths own;
+    if (!own_widths<N>(number, own))
+        return;
+    print_name(number);
+    for (int step = 0; step < steps; step++) {
+        Squares at_own, at_fewer;
+        int fewer = 0;
+        const bool rounds = has_step[step] && own.bits[step] != exact;
+        for (size_t i = 0; rounds && i < sizeof fewer_bits / sizeof *fewer_bits; i++) {
+            if (i > 0 && own.bits[step] - fewer_bits[i] < least_fewer)
+                break;
+            fewer = fewer_bits[i];
+            Widths w = own;
+            for (int k = 0; k < steps; k++)
+                w.bits[k] = k == step ? own.bits[k] - fewer : exact;
+            at_fewer = squares(w);
+            if (i == 0)
+                at_own = at_fewer;
+            if (at_fewer.pixels >= enough)
+                break;
+        }
+        printf(step == 0 ? "[[" : ", [");
+        print(at_own);
+        printf(", ");
+        print(at_fewer);
+        printf(", %d]", fewer);
+    }
+    putchar(']');
 }
 
 void print_steps()
@@ -137,8 +184,8 @@ void print_steps()
         printf("%s{\"name\": \"%s\", \"of\": \"%s\", \"what\": \"%s\", \"squares\": ", step == 0 ? "" : ", ", name,
                quantity, what);
         const Squares most = squares(Step{step}, least_bits);
-        const bool has_step = most.shade + most.other != 0;
-        print_list(count, [&](int i) { return i == 0 || !has_step ? most : squares(Step{step}, bits(i)); });
+        has_step[step] = most.shade + most.other != 0;
+        print_list(count, [&](int i) { return i == 0 || !has_step[step] ? most : squares(Step{step}, bits(i)); });
         putchar('}');
     }
     printf("], \"together\": ");
@@ -158,8 +205,16 @@ int run(int argc, char** argv)
         return cli::bad_options("%s: no picture", options.scene);
     printf("{\"levels\": %zu, ", truth.size());
     print_steps();
-    printf(", \"numbers\": {");
-#define QRAY_NUMBER(Type, name) print_number<Type>(cli::Number::Type);
+    printf(", \"alone\": {");
+#define QRAY_NUMBER(Type, name) print_alone<Type>(cli::Number::Type);
+    QRAY_NUMBERS(QRAY_NUMBER)
+#undef QRAY_NUMBER
+    options.settings.width *= larger;
+    options.settings.height *= larger;
+    draw(cli::double_renderer, truth);
+    first_number = true;
+    printf("}, \"larger\": %u, \"reached\": {", larger * larger);
+#define QRAY_NUMBER(Type, name) print_reached<Type>(cli::Number::Type);
     QRAY_NUMBERS(QRAY_NUMBER)
 #undef QRAY_NUMBER
     puts("}}");

@@ -55,7 +55,7 @@ class Bits:
         first = next(iter(self.found.values()))
         self.bits, self.what = first["bits"], {s["name"]: s["what"] for s in first["steps"]}
         self.fractions = [s["name"] for s in first["steps"] if s["of"] in ("Length", "Unit", "Colour")]
-        self.numbers = list(dict.fromkeys(n for f in self.found.values() for n in f["numbers"]))
+        self.numbers = list(dict.fromkeys(n for f in self.found.values() for n in f["reached"]))
         self.at = {name: {scene: self.row(scene, f["steps"][i]["squares"]) for scene, f in self.found.items()
                           if any(f["steps"][i]["squares"][0])} for i, name in enumerate(self.what)}
         self.together = {scene: self.row(scene, f["together"]) for scene, f in self.found.items()}
@@ -64,7 +64,7 @@ class Bits:
         return pictures.decibels(squares / self.found[scene]["levels"])
 
     def row(self, scene, squares):
-        return [self.decibels(scene, sum(both)) for both in squares]
+        return [self.decibels(scene, shade + other) for shade, other, _ in squares]
 
     def median(self, of):
         """By bits, over scenes."""
@@ -84,24 +84,33 @@ class Bits:
         own = [self.needed(row) or self.bits[-1] + 2 for row in self.at[name].values()]
         return (statistics.median_high(own), max(own)) if own else (None, None)
 
+    def sums(self, scene, number):
+        """What the errors of all steps, each alone, add up to: squares of shades, the root of the squares of what moves
+        edges. A bit fewer of a step moves these twice as far: so are known, too, what few pixels show, and from so few
+        that a picture has less than half a pixel of them, none are predicted."""
+        found = self.found[scene]
+        shades, others, pixels = zip(*[(own[0], fewer[1] / 2 ** bits, fewer[2] / 2 ** bits)
+                                       for own, fewer, bits in found["alone"][number]])
+        seen = math.hypot(*pixels) * found["larger"] >= 0.5
+        return sum(shades) + (math.hypot(*others) if seen else 0)
+
     def predicted(self, scene, number):
-        """Decibels: (reached, all steps rounded together, the sum of each alone). Squares of shades are added. Where
-        edges move, squares grow with how far, and ways that know nothing of each other add up to the root of their
-        squares."""
-        n = self.found[scene]["numbers"][number]
-        shades, others = zip(*n["alone"])
-        added = sum(shades) + math.hypot(*others)
-        return tuple(self.decibels(scene, v) for v in (sum(n["reached"]), sum(n["together"]), added))
+        """Decibels: (reached, all steps rounded together, the sum of each alone)."""
+        found = self.found[scene]
+        return (*(self.decibels(scene, (shade + other) / found["larger"])
+                  for shade, other, _ in found["reached"][number]),
+                self.decibels(scene, self.sums(scene, number)))
 
     def agree(self, number, kind):
         """In how many scenes what is predicted is within 3 dB, of how many."""
-        own = [self.predicted(scene, number) for scene, f in self.found.items() if number in f["numbers"]]
+        own = [self.predicted(scene, number) for scene, f in self.found.items() if number in f["reached"]]
         return sum(abs(p[0] - p[kind]) <= 3 for p in own), len(own)
 
     def shares(self, number):
         """Of each step, in the sum of squares of a number system; the mean of all scenes."""
-        alone = [f["numbers"][number]["alone"] for f in self.found.values() if number in f["numbers"]]
-        scaled = [[sum(both) / total for both in a] for a in alone if (total := sum(map(sum, a)))]
+        alone = [[own[0] + fewer[1] / 2 ** bits for own, fewer, bits in f["alone"][number]]
+                 for f in self.found.values() if number in f["alone"]]
+        scaled = [[squares / sum(a) for squares in a] for a in alone if sum(a)]
         return {name: sum(own) / len(scaled) for name, own in zip(self.what, zip(*scaled))}
 
 
@@ -141,7 +150,7 @@ def steps_table(b, cost):
 
 def numbers_table(b):
     rows = [[f"`{scene}`"] + [f"{v:.0f}" for n in b.numbers
-                              for v in (b.predicted(scene, n) if n in f["numbers"] else [math.nan] * 3)]
+                              for v in (b.predicted(scene, n) if n in f["reached"] else [math.nan] * 3)]
             for scene, f in b.found.items()]
     return table(["dB", *(f"{n} {kind}" for n in b.numbers for kind in ("reaches", "together", "sum"))], rows)
 

@@ -16,12 +16,13 @@ namespace qray::study {
 // Doubles have so many bits behind the point where it matters: nothing is rounded.
 inline constexpr int exact = 52;
 
-// v to so many bits behind the point, to the nearest, halves up.
+// v to so many bits behind the point, to the nearest, halves up; or cut, always downward.
 struct Rounding {
     double limit = 0, shift = 0, half = 0; // what is not below the limit has no more bits
+    bool cuts = false;
 
     constexpr Rounding() = default;
-    constexpr explicit Rounding(int bits)
+    constexpr explicit Rounding(int bits, bool cut = false) : cuts(cut)
     {
         if (bits >= exact)
             return;
@@ -36,6 +37,8 @@ struct Rounding {
         if (!(v < limit && v > -limit))
             return v;
         const double even = (v + shift) - shift;
+        if (cuts)
+            return even > v ? even - 2 * half : even;
         return v - even == half ? even + 2 * half : even;
     }
 };
@@ -53,6 +56,8 @@ constexpr double significant(double v, int bits, double like)
 // What is measured at a time. Spheres and cones are block-scaled in fixed point; in a plain table they are not.
 struct Widths {
     int bits[steps];
+    bool cuts[steps] = {};          // where it does not round
+    int leave = 2;                  // how far off a surface new rays start, in last bits of a hit point
     const Blocks* blocks = nullptr; // of Lengths with `length` bits
     int length = 0;
 
@@ -60,8 +65,10 @@ struct Widths {
     {
         for (int& b : bits)
             b = all;
+        cuts[static_cast<int>(Step::map)] = true;
     }
     constexpr int& operator[](Step step) { return bits[static_cast<int>(step)]; }
+    constexpr int operator[](Step step) const { return bits[static_cast<int>(step)]; }
     friend constexpr bool operator==(const Widths&, const Widths&) = default;
 };
 
@@ -69,14 +76,20 @@ struct Widths {
 template <class N>
 constexpr Widths widths_of(int exposure)
 {
-    // Where products have 32 bits, reciprocals and the rows of textures have those of a Unit and one more; texture
-    // coordinates have more bits than their rows say.
-    constexpr int Length = N::Length::frac, Unit = N::Unit::frac, Significant = Unit + NarrowFixed<N>, Cell = exact;
+    constexpr int Length = N::Length::frac, Unit = N::Unit::frac, Eta = N::Eta::frac;
     const int Colour = N::Colour::frac - exposure;
+    // Reciprocals have 16 or 32 bits. Where products have 32, the rows of textures have those of a Unit and one more;
+    // texture coordinates have more bits than their rows say.
+    constexpr int Quotient = ShortFixed<N> ? 15 : 31, Row = Unit + NarrowFixed<N>, Cell = exact;
+    // What q24 has as q16 has it: powers, what its colours are multiplied by, which it cuts, and factors of ratio().
+    constexpr bool is_mixed = NarrowFixed<N> && !ShortFixed<N>;
+    constexpr int Share = is_mixed ? q16::Unit::frac : Unit, Curved = is_mixed ? q16::ratio_bits : Unit;
     Widths w;
 #define QRAY_WIDTH(name, quantity, what) w[Step::name] = quantity;
     QRAY_STEPS(QRAY_WIDTH)
 #undef QRAY_WIDTH
+    w.cuts[static_cast<int>(Step::share)] = is_mixed;
+    w.leave = N::leave(N::one).raw;
     w.blocks = &N::blocks;
     w.length = Length;
     return w;
@@ -89,7 +102,7 @@ inline void set(const Widths& w)
 {
     widths = w;
     for (int i = 0; i < steps; i++)
-        roundings[i] = Rounding(w.bits[i]);
+        roundings[i] = Rounding(w.bits[i], w.cuts[i]);
 }
 
 // In a constant expression, which a member's specialisation must allow, nothing is rounded.
@@ -114,7 +127,9 @@ struct Within : Double {
     QRAY_INLINE static constexpr double sqrt_unit(double a) { return keep<S>(Double::sqrt_unit(a)); }
     QRAY_INLINE static constexpr bool normalise(double x, double y, double z, double& ux, double& uy, double& uz)
     {
-        const bool is = Double::normalise(x, y, z, ux, uy, uz);
+        const double most = largest(x, largest(y, z));
+        const auto kept = [most](double v) { return significant(v, widths[S] + 1, most); };
+        const bool is = Double::normalise(kept(x), kept(y), kept(z), ux, uy, uz);
         sharpened(ux, uy, uz);
         return is;
     }
@@ -125,6 +140,11 @@ struct Within : Double {
     }
 
 private:
+    QRAY_INLINE static constexpr double largest(double a, double b)
+    {
+        const double u = absolute(a), v = absolute(b);
+        return u > v ? u : v;
+    }
     QRAY_INLINE static constexpr void sharpened(double& x, double& y, double& z)
     {
         x = keep<S>(x);
@@ -147,11 +167,11 @@ struct Stepped : Double {
     }
     QRAY_INLINE static double unit(double v, const char* file = __builtin_FILE())
     {
-        return is_in(file, "texture/") ? keep<Step::colour>(v)
+        return is_in(file, "texture/") ? v // rounded as a share
             : is_in(file, "trace/trace.") || is_in(file, "see_through") ? keep<Step::weight>(v)
                                                                         : keep<Step::cosine>(v);
     }
-    QRAY_INLINE static double colour(double v) { return keep<Step::colour>(v); }
+    QRAY_INLINE static constexpr double colour(double v) { return keep<Step::colour>(v); }
 
     QRAY_INLINE static double fine(double v, int32_t by) { return by < 0 ? v / (1 << -by) : v * (1 << by); }
     QRAY_INLINE static double fine_sub(double a, double b, int32_t by)
@@ -179,10 +199,24 @@ struct Stepped : Double {
         t = quotient(t);
         return is;
     }
-    QRAY_INLINE static double ratio(double v, double inverse_r) { return keep<Step::normal>(v * inverse_r); }
+    QRAY_INLINE static double ratio(double v, double inverse_r) { return keep<Step::curved>(v * inverse_r); }
+    static bool weights(double a, double b, double c, double& wa, double& wb, double& wc)
+    {
+        const bool is = Double::weights(a, b, c, wa, wb, wc);
+        wa = keep<Step::curved>(wa);
+        wb = keep<Step::curved>(wb);
+        wc = keep<Step::curved>(wc);
+        return is;
+    }
     QRAY_INLINE static void sharpen(double& x, double& y, double& z) { Within<Step::normal>::sharpen(x, y, z); }
-    QRAY_INLINE static double power_whole(double x, Shine e) { return keep<Step::power>(Double::power_whole(x, e)); }
-    QRAY_INLINE static double power(double x, Shine e) { return keep<Step::power>(Double::power(x, e)); }
+    QRAY_INLINE static double power_whole(double x, Shine e)
+    {
+        return keep<Step::power>(Double::power_whole(keep<Step::power>(x), e));
+    }
+    QRAY_INLINE static double power(double x, Shine e)
+    {
+        return keep<Step::power>(Double::power(keep<Step::power>(x), e));
+    }
 };
 
 static_assert(NumberSystem<Stepped> && NumberSystem<Within<Step::normal>>);
@@ -199,6 +233,11 @@ inline bool towards(const Sun<Stepped>& sun, const Point<Stepped>&, Direction<St
     l = keep<Step::light>(sun.from);
     distance = Stepped::length_max;
     return true;
+}
+template <Effects E>
+Rgb<Stepped> light_of_surfaces(const Scene<Stepped, E>& scene, Tag tag, bool inside, const Point<Stepped>& q)
+{
+    return keep<Step::map>(qray::light_of_surfaces<Stepped, E>(scene, tag, inside, q));
 }
 // As in fixed point, where the rounding of v.d does not reach the normal.
 inline void surface_of(const Sphere<Stepped>& s, const Corners<Stepped>& corners, const Ray<Stepped>& ray, double t,
@@ -219,6 +258,48 @@ struct RejectRay<study::Stepped> {
     static bool misses_ball(const Point<study::Stepped>&, double) { return false; }
     static bool misses_plane(const Point<study::Stepped>&, const Direction<study::Stepped>&) { return false; }
 };
+
+// What a colour is multiplied by.
+template <>
+inline constexpr void add_scaled<study::Stepped>(Vec<double>& sum, double k, const Vec<double>& light)
+{
+    k = study::keep<study::Step::share>(k);
+    sum = sum + Vec<double>{study::Stepped::colour(light.x * k), study::Stepped::colour(light.y * k),
+                            study::Stepped::colour(light.z * k)};
+}
+template <>
+inline constexpr void saturating_add<study::Stepped>(Vec<double>& sum, const Vec<double>& light, double k)
+{
+    add_scaled<study::Stepped>(sum, k, light);
+}
+template <>
+inline constexpr Vec<double> filtered<study::Stepped>(const Vec<double>& light, const Vec<double>& m)
+{
+    const Vec<double> k = study::keep<study::Step::share>(m);
+    return {study::Stepped::colour(light.x * k.x), study::Stepped::colour(light.y * k.y),
+            study::Stepped::colour(light.z * k.z)};
+}
+
+// Where a ray starts that leaves a surface: as in fixed point, a few last bits of a point off it.
+template <>
+inline constexpr Vec<double> step_off<study::Stepped>(const Vec<double>& q, const Vec<double>& g, bool outward)
+{
+    using study::Step;
+    if (__builtin_is_constant_evaluated() || study::widths[Step::point] >= study::exact)
+        return step_off<Double>(q, g, outward);
+    const double size = 2 * study::roundings[static_cast<int>(Step::point)].half * study::widths.leave;
+    return q + study::keep<Step::point>(scaled<Double>(outward ? size : -size, g));
+}
+
+// In fixed point the place in a light map is rounded down.
+template <>
+inline constexpr int32_t LightSteps<study::Stepped>::operator()(const Vec<double>& q) const
+{
+    const double at = dot<Double>(q, row);
+    if (!__builtin_is_constant_evaluated() && study::widths[study::Step::map] < study::exact)
+        return static_cast<int32_t>(study::Rounding(0, true)(at)) + offset;
+    return static_cast<int32_t>(at) + offset;
+}
 
 // Exact in fixed point: see corners.hpp.
 template <>
@@ -303,7 +384,7 @@ inline Vec<double> Convert<study::Stepped>::direction(const Vec3d& d)
 template <>
 inline double Convert<study::Stepped>::eta(double v)
 {
-    return study::keep<study::Step::refracted>(v);
+    return study::keep<study::Step::eta>(v);
 }
 template <>
 inline LatticeAxis<study::Stepped> Convert<study::Stepped>::axis(const Vec3d& row, const Vec3d& origin, double scale,
@@ -317,7 +398,7 @@ inline LatticeAxis<study::Stepped> Convert<study::Stepped>::axis(const Vec3d& ro
 template <>
 inline Vec<double> Convert<study::Stepped>::surface(const Vec3d& c)
 {
-    return study::keep<study::Step::colour>(Vec<double>{c.x, c.y, c.z});
+    return {c.x, c.y, c.z};
 }
 template <>
 inline int Builder<study::Stepped>::fine_for(double size, Blocks::Of Blocks::*of) const
