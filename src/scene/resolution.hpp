@@ -1,6 +1,6 @@
 // What a number system cannot tell apart in a scene: where the eye may stand, which objects span too few steps, and
 // which surfaces fall together. The bounds were measured against tests/oracle, so that what is below them is not drawn
-// right (28 dB in q16, 60 dB in q32, 45 dB in float), and what is above them is.
+// right (28 dB in q16, 40 dB in q24, 60 dB in q32, 45 dB in float), and what is above them is.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct Steps {
     // Of two surfaces, where one lets rays through, and where none does.
     static constexpr double clear_apart = NarrowFixed<N> ? 4 : N::is_fixed ? 48 : 4, apart = 1.6;
     // Of a picture's height, where the object is.
-    static constexpr double picture = NarrowFixed<N> ? 300 : N::is_fixed ? 6144 : single ? 2048 : 0x1p28;
+    static constexpr double picture = ShortFixed<N> ? 300 : N::is_fixed ? 6144 : single ? 2048 : 0x1p28;
     // How much of a picture's height the horizon of a curved surface may move, and how many steps it is off anyway.
     static constexpr double horizon = NarrowFixed<N> ? 1.0 / 256 : N::is_fixed ? 2e-3 : 4e-3;
     static constexpr double cone_horizon = single ? horizon / 8 : horizon;
@@ -47,6 +47,17 @@ public:
             return static_cast<double>(N::epsilon) * size;
     }
 
+    // Of the radius of a ball, in such steps: more than one where it takes more bits than may be squared; else 0.
+    double coarse([[maybe_unused]] const Object& o) const
+    {
+        if constexpr (NarrowFixed<N>)
+            if (o.kind == Kind::sphere) {
+                const int fine = block_scale<N>(Convert<N>::length(o.ra * frame.scale), &Blocks::ball);
+                return fine < 0 ? ldexp(1, -fine) : 0;
+            }
+        return 0;
+    }
+
     // What double makes of the distance 0 from p to the surface with this normal.
     double noise(const Object& o, const Vec3d& n, const Vec3d& p) const
     {
@@ -61,15 +72,15 @@ public:
     // The text's eye or, where that is off a surface by less than what rays need to meet it, as much as that.
     Vec3d eye()
     {
-        const double need = Steps<N>::off * step();
         Vec3d at = d.view.from;
         bool moved = true;
         for (int round = 0; moved && round < 8; round++) {
             moved = false;
-            for_each_near(d.view.from, need + length(at - d.view.from), [&](const Near& s) {
+            for_each_near(d.view.from, Steps<N>::off * step() + length(at - d.view.from), [&](const Near& s) {
                 const Object& o = s.object;
                 const Above& text = s.above;
-                const double most = fmin(need, share() * widest(o)), side = text.height < 0 ? -1 : 1;
+                const double most = fmin((Steps<N>::off + coarse(o)) * step(), share() * widest(o));
+                const double side = text.height < 0 ? -1 : 1;
                 if (round == 0)
                     horizon(o, text, fmax(most, text.height));
                 const Above now = lies_on(d, o, s.part, at, s.off);
@@ -93,7 +104,7 @@ public:
         if (r == HUGE_VAL || off < 0 || is_on(o, text) || fabs(dot(text.outward, forward)) > sin(half_diagonal()))
             return;
         const double moved = sqrt(2 * seen_from / r) - sqrt(2 * off / r)
-            + Steps<N>::rough * step() / sqrt(2 * seen_from * r);
+            + fmax(Steps<N>::rough, coarse(o) / 2) * step() / sqrt(2 * seen_from * r);
         if (moved > (o.kind == Kind::cone && o.ra != o.rb ? Steps<N>::cone_horizon : Steps<N>::horizon) * 2 * half)
             lost.note({o.line, 0}, "the eye, %.3g off a %s, sees its horizon from %.3g off, where steps are %.3g", off,
                       name_of(o), seen_from, step());
@@ -167,7 +178,7 @@ public:
         if (away <= r || r * d.view.height < picture / 2
             || acos(fmax(-1, fmin(1, dot(v, forward) / away))) - asin(r / away) > half_diagonal())
             return;
-        const double error = fmax(across_view(middle, v), frame.pushed);
+        const double error = fmax(fmax(across_view(middle, v), coarse(o) * step()), frame.pushed);
         if (picture >= Steps<N>::picture * error)
             return;
         if (2 * r < picture)
@@ -180,7 +191,9 @@ public:
     // Which surfaces lie so close that what is between them is lost? `sorted` has room for all objects.
     void pairs(SortedObject* sorted)
     {
-        const double near = Steps<N>::clear_apart * step();
+        double near = Steps<N>::clear_apart * step();
+        if constexpr (N::is_fixed)
+            near = ldexp(near, -N::blocks.ball.least);
         for (const Kind kind : {Kind::sphere, Kind::cone, flat}) {
             uint32_t count = 0;
             for (uint32_t i = 0; i < d.object_count; i++)
@@ -244,7 +257,7 @@ private:
         uint32_t place = 0;
         for (uint32_t i = 0; i < d.object_count; i++) {
             const Object& o = d.objects[i];
-            const double most = fmin(off, share() * widest(o));
+            const double most = fmin(off + coarse(o) * step(), share() * widest(o));
             for (uint32_t part = 0; part < surfaces_of(o); part++, place++)
                 if (const Above above = lies_on(d, o, part, p, most);
                     above.near && !visit(Near{o, place, part, most, above}))
@@ -351,7 +364,8 @@ private:
     {
         const Fill &f = d.fills[a.fill], &g = d.fills[b.fill];
         const bool opaque = f.transmit == 0 && g.transmit == 0;
-        const double one = step_at(fmax(largest(frame.eye - frame.origin), largest(place(a) - frame.origin)));
+        const double one = fmax(1, fmax(coarse(a), coarse(b)))
+            * step_at(fmax(largest(frame.eye - frame.origin), largest(place(a) - frame.origin)));
         const double off = apart(a, b), least = (opaque ? Steps<N>::apart : Steps<N>::clear_apart) * one;
         if (off > least || off > widest(a) / 16 || (opaque && f == g)
             || off <= noise(a, widest(a) == HUGE_VAL ? normal(a) : Vec3d{1, 0, 0}, place(b)))
