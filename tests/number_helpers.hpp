@@ -20,11 +20,13 @@ namespace qray::test {
 
 #ifdef QRAY_LANES_ALONE // tests of lanes: those that have them
 using NumberSystems = ::testing::Types<q32, Float>;
-using AllButQ24 = NumberSystems;
 #else
 using NumberSystems = ::testing::Types<q16, q24, q32, Float, Double>;
-using AllButQ24 = ::testing::Types<q16, q32, Float, Double>; // of tests that do not know q24's bounds
 #endif
+
+// Products that keep their upper bits: of three that are summed less than 3/8 ulp of a Length or a Unit is dropped.
+template <class N>
+constexpr bool is_split = NarrowFixed<N> && !ShortFixed<N>;
 
 struct SystemNames {
     template <class N>

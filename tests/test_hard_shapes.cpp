@@ -12,19 +12,20 @@ using Quad = __float128;
 
 template <class N>
 struct HardShapes : ::testing::Test {};
-TYPED_TEST_SUITE(HardShapes, AllButQ24, SystemNames);
+TYPED_TEST_SUITE(HardShapes, NumberSystems, SystemNames);
 
 // What this system resolves at a distance of 60 from objects of size 1 and less: a unit in the last place of a
 // coordinate of 32 to 64. (In fixed point the perpendicular of a ray is block-scaled: finer.)
 template <class N>
-constexpr double resolution()
+double resolution()
 {
-    return std::is_same_v<N, q16> ? 0x1p-10 : N::is_fixed ? 0x1p-24 : std::is_same_v<N, Float> ? 0x1p-17 : 0x1p-46;
+    return N::is_fixed ? make<N>::length_ulp() : std::is_same_v<N, Float> ? 0x1p-17 : 0x1p-46;
 }
 
-// q16 sees no millionths: the smallest differences are multiplied by this for it.
+// q16 and q24 see no millionths: the smallest differences are multiplied by this for them, to what five steps of a
+// direction are 55 away.
 template <class N>
-constexpr double grain = std::is_same_v<N, q16> ? 0x1p14 : 1;
+constexpr double grain = ShortFixed<N> ? 0x1p14 : is_split<N> ? 0x1p8 : 1;
 
 template <class T>
 Vec<Quad> exact(const Vec<T>& v)
@@ -83,7 +84,8 @@ TYPED_TEST(HardShapes, SphereAimedAMillionthOfItsRadiusBesideItsEdge)
     using N = TypeParam;
     // Float cannot: 55 radii away its coordinates end at 2^-18, four millionths.
     const double margin = std::is_same_v<N, Float> ? 1e-4 : 1e-6 * grain<N>;
-    aim_at_the_edge<N>(1, margin, std::is_same_v<N, q32> ? 0x1p-26 : 4 * resolution<N>());
+    // The perpendicular has what products drop, sqrt(3)/8 ulp in q24, and half a step of its block scale in each part.
+    aim_at_the_edge<N>(1, margin, resolution<N>() * (WideFixed<N> ? 0.25 : is_split<N> ? 0.5 : 4));
 }
 
 TYPED_TEST(HardShapes, SphereOfAnEleventhousandthOfItsDistance)
@@ -91,8 +93,8 @@ TYPED_TEST(HardShapes, SphereOfAnEleventhousandthOfItsDistance)
     using N = TypeParam;
     if (std::is_same_v<N, q16>) // of a tenth of a pixel: its smallest are of five ulp
         return aim_at_the_edge<N>(0.05, 0.5, 8 * resolution<N>());
-    const double margin = std::is_same_v<N, Float> ? 1e-2 : std::is_same_v<N, Double> ? 1e-6 : 2e-5;
-    aim_at_the_edge<N>(0.005, margin, N::is_fixed ? 0x1p-26 : 4 * resolution<N>());
+    const double margin = std::is_same_v<N, Float> ? 1e-2 : std::is_same_v<N, Double> ? 1e-6 : 2e-5 * grain<N>;
+    aim_at_the_edge<N>(0.005, margin, resolution<N>() * (N::is_fixed ? 0.25 : 4));
 }
 
 TYPED_TEST(HardShapes, SphereLeftAlmostAlongItsTangentIsNotMetAgain)

@@ -106,7 +106,7 @@ TYPED_TEST(LightTest, DistanceIsClampedNotWrapped)
             ASSERT_TRUE(towards(light, M::point(-k * reach, -k * side * reach, -k * reach), l, distance));
             const double exact = std::sqrt(3) * reach * (1 + k), most = value(N::length_max); // 77 to 109 in q16
             // In q24 the unit vector's length counts, too, which is known to less than 1.43 ulp of its own.
-            const double off = NarrowFixed<N> && !ShortFixed<N> ? 1.43 * M::unit_ulp() * exact : 0;
+            const double off = is_split<N> ? 1.43 * M::unit_ulp() * exact : 0;
             EXPECT_NEAR(value(distance), std::fmin(exact, most), 4 * M::length_ulp(exact) + off);
             expect_near(value(l), unit({1, side, 1}), 3 * M::unit_ulp());
         }

@@ -14,10 +14,6 @@ template <class N>
 struct NumberTest : ::testing::Test {};
 TYPED_TEST_SUITE(NumberTest, NumberSystems, SystemNames);
 
-// Products that keep their upper bits.
-template <class N>
-constexpr bool is_split = std::is_same_v<N, q24>;
-
 TYPED_TEST(NumberTest, ConstantsStandForTheirNumbers)
 {
     using N = TypeParam;

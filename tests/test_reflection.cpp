@@ -37,7 +37,7 @@ TYPED_TEST(ReflectionTest, DoesNotCareWhichWayTheNormalPoints)
     using M = make<N>;
     // In q24, whose products are rounded down, n.d of n and of -n may differ by a step (3/8 + 3/8 + 1 < 2), its product
     // with n then by two (1 + 1/8 + 1/8 + 1 < 3), which counts twice; sharpen() rounds once more.
-    const double near = (NarrowFixed<N> && !ShortFixed<N> ? 5 : 2) * M::unit_ulp();
+    const double near = (is_split<N> ? 5 : 2) * M::unit_ulp();
     Random random(91);
     for (int i = 0; i < 200; i++) {
         const auto d = M::direction(random.direction()), n = M::direction(random.direction());

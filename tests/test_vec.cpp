@@ -9,7 +9,7 @@ using namespace qray::test;
 
 template <class N>
 struct VecTest : ::testing::Test {};
-TYPED_TEST_SUITE(VecTest, AllButQ24, SystemNames);
+TYPED_TEST_SUITE(VecTest, NumberSystems, SystemNames);
 
 TYPED_TEST(VecTest, AddsSubtractsAndNegatesByComponent)
 {
@@ -34,12 +34,15 @@ TYPED_TEST(VecTest, DotSumsProductsOfAnyTwoQuantities)
     using N = TypeParam;
     using M = make<N>;
     // Values of few bits, so that floating point is exact too.
-    EXPECT_EQ(value(qray::dot<N>(M::point(1, -2, 0.5), M::point(4, 3, -2))), -3);
+    if constexpr (!is_split<N>) { // which has no sums of these
+        EXPECT_EQ(value(qray::dot<N>(M::point(1, -2, 0.5), M::point(4, 3, -2))), -3);
+    }
     EXPECT_EQ(value(qray::dot<N>(M::point(4, -8, 2), M::vector(0.5, 0.25, -1))), -2);
     EXPECT_EQ(value(qray::dot<N>(M::vector(0.5, 0.25, -1), M::vector(-0.5, 1, 0.25))), -0.25);
     EXPECT_EQ(value(norm2<N>(M::point(1, -2, 2))), 9);
 }
 
+// Or misses what three products drop, in q24: of 12 bits less than 32 steps each.
 TYPED_TEST(VecTest, DotIsExactInFixedPoint)
 {
     using N = TypeParam;
@@ -58,10 +61,15 @@ TYPED_TEST(VecTest, DotIsExactInFixedPoint)
                 + static_cast<__int128>(l[2]) * u[2];
             const Vec<Length> a{{l[0]}, {l[1]}, {l[2]}};
             const Vec<Unit> b{{u[0]}, {u[1]}, {u[2]}};
-            ASSERT_TRUE(qray::dot<N>(a, b).raw == exact);
+            const __int128 step = is_split<N> ? 1 << 12 : 1, dropped = exact - qray::dot<N>(a, b).raw * step;
+            ASSERT_TRUE(dropped >= 0 && dropped < (is_split<N> ? 3 * 32 * step : 1));
         }
     }
 }
+
+// In ulp: half of one, and an eighth that q24's product dropped.
+template <class N>
+constexpr double one_rounding = is_split<N> ? 0.625 : 0.51;
 
 TYPED_TEST(VecTest, AlongIsOneRoundingAComponent)
 {
@@ -72,7 +80,7 @@ TYPED_TEST(VecTest, AlongIsOneRoundingAComponent)
         const auto t = M::length(random.uniform(0, 16));
         const auto d = M::direction(random.direction());
         const Vec3 exact = value(d) * value(t);
-        expect_near(value(along<N>(t, d)), exact, 0.51 * M::length_ulp(16));
+        expect_near(value(along<N>(t, d)), exact, one_rounding<N> * M::length_ulp(16));
     }
 }
 
@@ -84,12 +92,21 @@ TYPED_TEST(VecTest, ScaledIsOneRoundingAComponent)
     for (int i = 0; i < 1000; i++) {
         const auto k = M::unit(random.uniform(-1, 1));
         const auto d = M::direction(random.direction());
-        expect_near(value(scaled<N>(k, d)), value(d) * value(k), 0.51 * M::unit_ulp());
+        expect_near(value(scaled<N>(k, d)), value(d) * value(k), one_rounding<N> * M::unit_ulp());
         if constexpr (N::is_fixed) {
             const auto c = M::rgb(random.uniform(0, 1.9), random.uniform(0, 1.9), random.uniform(0, 1.9));
-            expect_near(value(scaled<N>(k, c)), value(c) * value(k), 0.51 * M::colour_ulp());
+            const double share = is_split<N> ? 1.9 * 0x1p-14 : 0; // k has 14 bits for colours
+            expect_near(value(scaled<N>(k, c)), value(c) * value(k), 0.51 * M::colour_ulp() + share);
         }
     }
+}
+
+// How far a component may be off: in floating point by a square root, a division and a product, half an ulp each, and
+// the rounding of a sum of squares; in q24 as unit_split() says.
+template <class N>
+double unit_error()
+{
+    return (is_split<N> ? 1.54 : N::is_fixed ? 1 : 2) * make<N>::unit_ulp();
 }
 
 TYPED_TEST(VecTest, NormaliseGivesTheUnitVector)
@@ -107,9 +124,7 @@ TYPED_TEST(VecTest, NormaliseGivesTheUnitVector)
         ASSERT_TRUE(normalise<N>(given, u));
         worst = std::fmax(worst, distance(value(u), unit(value(given))));
     }
-    // In floating point a square root, a division and a product, half an ulp each, and the rounding of a sum of
-    // squares.
-    EXPECT_LE(worst, N::is_fixed ? M::unit_ulp() : 2 * M::unit_ulp());
+    EXPECT_LE(worst, unit_error<N>());
 }
 
 TYPED_TEST(VecTest, NormaliseKeepsAxesAndExactTriples)
@@ -119,11 +134,11 @@ TYPED_TEST(VecTest, NormaliseKeepsAxesAndExactTriples)
     Direction<N> u{};
     for (double size : {0.125, 1.0, 12.0}) {
         ASSERT_TRUE(normalise<N>(M::point(0, -size, 0), u));
-        expect_near(value(u), {0, -1, 0}, M::unit_ulp());
+        expect_near(value(u), {0, -1, 0}, unit_error<N>());
         EXPECT_EQ(value(u.x), 0);
         EXPECT_EQ(value(u.z), 0);
         ASSERT_TRUE(normalise<N>(M::point(2 * size, -size, 2 * size), u));
-        expect_near(value(u), {2. / 3, -1. / 3, 2. / 3}, M::unit_ulp());
+        expect_near(value(u), {2. / 3, -1. / 3, 2. / 3}, unit_error<N>());
     }
 }
 
