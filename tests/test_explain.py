@@ -43,7 +43,7 @@ def numbers(text):
 
 
 def pixels(out):
-    return [tuple(map(int, p)) for p in re.findall(r"^(?:! )?pixel in \w+: (\d+) (\d+) (\d+)$", out, re.M)]
+    return [tuple(map(int, p)) for p in re.findall(r"^(?:! )?\w+, .*: colour (\d+) (\d+) (\d+)$", out, re.M)]
 
 
 def rays(out):
@@ -61,13 +61,13 @@ class Explain(unittest.TestCase):
         for n in NUMBERS:
             out = explain(BALL, "-n", n, "-", "4,4")
             line = {key: next(l for l in out.splitlines() if key in l) for key in
-                    ("meets", "normal", "colour", "ambient", "line 3:", "line 4:", "line 5:", "|  = ")}
+                    ("meets", "normal", "colour (", "ambient", "line 3:", "line 4:", "line 5:", "|  = ")}
             # The eye, 5 before the middle of a unit ball, meets it at (0 0 1); the lamp is (3 0 2) from there.
             cosine, distance = 2 / math.sqrt(13), math.sqrt(13)
             self.close(line["meets"], [7, 4, 0, 0, 1], OFF[n])
             self.assertIn("sphere, line 7 at", line["meets"])
             self.close(line["normal"], [0, 0, 1, -1], OFF[n])
-            self.close(line["colour"], [1, 0.5, 0.25], OFF[n])
+            self.close(line["colour ("], [1, 0.5, 0.25], OFF[n])
             self.close(line["ambient"], [0.1, 0.05, 0.025], OFF[n]) # 0.2 * 0.5
             lamp = [0.75 * 0.5 * cosine * c for c in (1, 0.5, 0.25)]
             self.close(line["line 3:"], [*lamp, 3, cosine, distance], OFF[n])
@@ -173,10 +173,27 @@ disc 0.2 0 2 0 0 1 0.1
                         else:
                             self.assertEqual(samples, 4 if options else 1)
 
+    def test_the_head(self):
+        background = VIEW + "b 0 0.5 1\n"
+        self.assertEqual(explain(background, "-", "3,4").split("\n")[:2],
+                         ["-, 9x9, pixel 3,4", "q32, 1 sample, depth 5, cutoff 0.0014: colour 0 128 255"])
+        out = explain(background, "-n", "q16,double", "-s", "6x5", "-a", "1,0.5", "-d", "2", "--cutoff", "0.1", "-", "0,4")
+        self.assertEqual(out.split("\n")[:3],
+                         ["-, 6x5, pixel 0,4",
+                          "q16, adaptive in 1 level from 0.5, depth 2, cutoff 0.1: colour 0 128 255",
+                          "double, adaptive in 1 level from 0.5, depth 2, cutoff 0.1: colour 0 128 255"])
+        _, out, _ = run("explain", "-q", "-r", "4", f"{SCENES}/balls.nff", "0,0")
+        self.assertEqual(out.split("\n")[0], f"{SCENES}/balls.nff, 320x240, pixel 0,0")
+        self.assertIn("q32, 4 samples, depth 5", out.split("\n")[1])
+
     def test_bad_pixels_and_options(self):
+        outside = [(["-", at], f"pixel {at} is outside of the picture; expected 0,0 to 8,8")
+                   for at in ("9,4", "4,9", "-1,4", "4,-1", "-1,-99", "4294967296,0", "0,99999999999999999999")]
         for arguments, expected in (
-                (["-", "9,4"], "pixel 9,4 is outside of the picture; expected 0,0 to 8,8"),
-                (["-", "4,9"], "pixel 4,9 is outside of the picture; expected 0,0 to 8,8"),
+                *outside,
+                (["-", "4,nan"], "'4,nan' is no pixel; expected X,Y, from 0"),
+                (["-", "-,4"], "unknown option '-,4'; 'qray explain -h' lists them"),
+                (["-1,4", "-"], "unknown option '-1,4'; 'qray explain -h' lists them"),
                 (["-", "4"], "'4' is no pixel; expected X,Y, from 0"),
                 (["-", "4,"], "'4,' is no pixel; expected X,Y, from 0"),
                 (["-"], "no pixel; expected X,Y behind the scene"),

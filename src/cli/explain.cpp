@@ -42,21 +42,33 @@ struct Line {
 
 class Writer {
 public:
-    Writer(scene::Source& to, const scene::Description& from, const scene::Settings& with, const Explained& one,
-           const Explained* other)
-        : out(to), d(from), settings(with), first(one), beside(other)
+    Writer(scene::Source& to, const scene::Description& from, const Explained& one, const Explained* other)
+        : out(to), d(from), first(one), beside(other)
     {
     }
 
-    void write()
+    void write(const Place& at)
     {
-        if (beside != nullptr)
+        const Explanation &a = first.of, *const b = beside != nullptr ? &beside->of : nullptr;
+        Line head;
+        head.add("%s, %ux%u, pixel %u,%u", at.scene, at.width, at.height, at.x, at.y);
+        depth = 0;
+        put(head.text, "");
+        drawing(first);
+        if (b != nullptr) {
+            drawing(*beside);
             out.print("'!' marks where they part: what is hit, what blocks, t by 1/1000, directions by 1/256, light by "
                       "half a level.\n");
-        const Explanation &a = first.of, *const b = beside != nullptr ? &beside->of : nullptr;
+            uint32_t shared = 0;
+            for (const Explanation::Sample& s : samples(a))
+                shared += find(*b, s) != nullptr;
+            if (shared != a.samples.count || shared != b->samples.count)
+                out.print("! %s has %u sample%s, %s %u, of which %u are at the same places.\n", first.name,
+                          a.samples.count, a.samples.count == 1 ? "" : "s", beside->name, b->samples.count, shared);
+        }
         for (const Explanation::Sample& s : samples(a)) {
             const Explanation::Sample* const same = b != nullptr ? find(*b, s) : nullptr;
-            sample(s, same);
+            sample(first, s, same);
             if (b == nullptr)
                 rays(a, s.first_ray, s.first_ray + s.ray_count);
             else if (same == nullptr)
@@ -67,19 +79,14 @@ public:
         if (b != nullptr)
             for (const Explanation::Sample& s : samples(*b))
                 if (find(a, s) == nullptr) {
-                    sample(s, nullptr);
+                    sample(*beside, s, nullptr);
                     alone(*beside, s.first_ray, s.first_ray + s.ray_count);
                 }
-        out.put("\n");
-        pixel(first);
-        if (beside != nullptr)
-            pixel(*beside);
     }
 
 private:
     scene::Source& out;
     const scene::Description& d;
-    const scene::Settings& settings;
     const Explained& first;
     const Explained* const beside;
     uint32_t depth = 1; // of the ray that is written
@@ -98,9 +105,12 @@ private:
         return nullptr;
     }
 
-    void sample(const Explanation::Sample& s, const Explanation::Sample* same)
+    void sample(const Explained& of, const Explanation::Sample& s, const Explanation::Sample* same)
     {
-        out.print("\nsample at %.7g,%.7g\n", s.x, s.y);
+        char mark[40] = "";
+        if (beside != nullptr && same == nullptr)
+            snprintf(mark, sizeof mark, "! only in %s: ", of.name);
+        out.print("\n%ssample at %.7g,%.7g\n", mark, s.x, s.y);
         depth = 0;
         item(same != nullptr && off(s.light, same->light, light_off), [&](Line& l, const Explanation& e) {
             l.add("light ");
@@ -109,12 +119,24 @@ private:
         });
     }
 
-    void pixel(const Explained& e)
+    // How the pixel was drawn, and its colour.
+    void drawing(const Explained& e)
     {
         const Pixel p = e.of.pixel, q = beside != nullptr ? beside->of.pixel : p, r = first.of.pixel;
         const bool differs = q.r != r.r || q.g != r.g || q.b != r.b;
-        out.print("%spixel in %s: %u %u %u\n", differs ? "! " : "", e.number, p.r, p.g, p.b);
+        const scene::Settings& s = e.settings;
+        const uint32_t count = s.grid * s.grid;
+        out.put(differs ? "! " : "");
+        if (strcmp(e.name, e.number) != 0)
+            out.print("%s: ", e.name);
+        out.print("%s, ", e.number);
+        if (s.levels != 0)
+            out.print("adaptive in %u level%s from %g", s.levels, s.levels == 1 ? "" : "s", s.threshold);
+        else
+            out.print("%u sample%s", count, count == 1 ? "" : "s");
+        out.print(", depth %u, cutoff %g: colour %u %u %u\n", s.depth, s.cutoff, p.r, p.g, p.b);
     }
+    const Explained& drawn(const Explanation& e) const { return &e == &first.of ? first : *beside; }
 
     // A line, indented; or two where the number systems differ. text(line, explanation) makes it.
     template <class Text>
@@ -124,7 +146,7 @@ private:
             return line(first.of, "", text);
         for (const Explained* e : {&first, beside}) {
             char mark[32];
-            snprintf(mark, sizeof mark, "! %s: ", e->number);
+            snprintf(mark, sizeof mark, "! %s: ", e->name);
             line(e->of, mark, text);
         }
     }
@@ -164,7 +186,7 @@ private:
     void alone(const Explained& e, uint32_t i, uint32_t end)
     {
         char mark[40];
-        snprintf(mark, sizeof mark, "! only in %s: ", e.number);
+        snprintf(mark, sizeof mark, "! only in %s: ", e.name);
         for (; i < end; i++)
             ray(e.of, e.of.rays[i], e.of, e.of.rays[i], mark);
     }
@@ -276,7 +298,8 @@ private:
              [&](Line& l, const TracedRay& of_it, const Explanation&) { sum(l, of_it); });
         const uint32_t ends = endings(r), other_ends = endings(q);
         if (ends != 0 || other_ends != 0)
-            each(ends != other_ends, [&](Line& l, const TracedRay& of_it, const Explanation&) { children(l, of_it); });
+            each(ends != other_ends,
+                 [&](Line& l, const TracedRay& of_it, const Explanation& e) { children(l, of_it, drawn(e).settings); });
     }
     // What there is to be said of the rays that a hit does not send on as its material has it.
     static uint32_t endings(const TracedRay& r)
@@ -288,7 +311,7 @@ private:
     void hit(const Explanation& e, const TracedRay& r)
     {
         Line head;
-        head.add("! %s:", &e == &first.of ? first.number : beside->number);
+        head.add("! %s:", drawn(e).name);
         put(head.text, "|  ");
         const auto own = [&](auto text) { line(e, "   ", text); };
         if (r.hit) {
@@ -299,7 +322,7 @@ private:
         }
         own([&](Line& l, const Explanation&) { sum(l, r); });
         if (endings(r) != 0)
-            own([&](Line& l, const Explanation&) { children(l, r); });
+            own([&](Line& l, const Explanation&) { children(l, r, drawn(e).settings); });
     }
 
     // Lines of a hit.
@@ -381,7 +404,7 @@ private:
             l.vector(r.light * r.weight);
         }
     }
-    void children(Line& l, const TracedRay& r) const
+    void children(Line& l, const TracedRay& r, const scene::Settings& settings) const
     {
         const char* between = "";
         const auto note = [&](const char* text) {
@@ -431,10 +454,10 @@ private:
 
 } // namespace
 
-void write_explanation(scene::Source& out, const scene::Description& description, const scene::Settings& settings,
+void write_explanation(scene::Source& out, const scene::Description& description, const Place& place,
                        const Explained& first, const Explained* beside)
 {
-    Writer(out, description, settings, first, beside).write();
+    Writer(out, description, first, beside).write(place);
 }
 
 } // namespace qray::cli

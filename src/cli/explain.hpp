@@ -73,13 +73,18 @@ struct Explanation {
 // Explains pixel (x, y) of the scene that this number system's renderer built last from the description.
 void explain_pixel(Number number, const scene::Description& from, uint32_t x, uint32_t y, Explanation& into);
 
-// As text of at most 120 columns. Where there is another number system's beside it, what differs by more than is said
-// in the first lines is marked by '!'.
+// As text of at most 120 columns. Where there is another drawing's beside it, in another number system or by other
+// settings, what differs by more than is said in the first lines is marked by '!'.
 struct Explained {
-    const char* number;
+    const char *name, *number; // name: what tells the two apart
+    const scene::Settings& settings;
     const Explanation& of;
 };
-void write_explanation(scene::Source& out, const scene::Description& description, const scene::Settings& settings,
+struct Place {
+    const char* scene;
+    uint32_t width, height, x, y;
+};
+void write_explanation(scene::Source& out, const scene::Description& description, const Place& place,
                        const Explained& first, const Explained* beside);
 
 } // namespace qray::cli

@@ -187,23 +187,25 @@ int explain(const Options& options)
         if (built_it != go_on)
             return built_it;
         if (options.x >= built.width || options.y >= built.height)
-            return bad_options("pixel %u,%u is outside of the picture; expected 0,0 to %u,%u", options.x, options.y,
-                               built.width - 1, built.height - 1);
+            return bad_options("pixel %s is outside of the picture; expected 0,0 to %u,%u",
+                               scene::ShownName(options.pixel).text, built.width - 1, built.height - 1);
         explain_pixel(numbers[i], description, options.x, options.y, explanations[i]);
         if (!explanations[i].whole) {
             fputs("qray: not enough memory for all rays of the pixel; less depth or fewer samples take less\n", stderr);
             return 1;
         }
     }
-    const Explained first{number_names[static_cast<int>(numbers[0])], explanations[0]},
-        beside{number_names[static_cast<int>(numbers[1])], explanations[1]};
+    const auto explained = [&options, &numbers](uint32_t i) {
+        const char* const name = number_names[static_cast<int>(numbers[i])];
+        return Explained{name, name, options.settings, explanations[i]};
+    };
+    const Explained first = explained(0), beside = explained(1);
     scene::Source source(
         [](void* to, const char* text, size_t size) { return fwrite(text, 1, size, static_cast<FILE*>(to)) == size; },
         stdout);
-    source.print("pixel %u,%u of %ux%u in %s%s%s, depth %u, cutoff %g\n", options.x, options.y, built.width,
-                 built.height, first.number, count == 2 ? " beside " : "", count == 2 ? beside.number : "",
-                 options.settings.depth, options.settings.cutoff);
-    write_explanation(source, description, options.settings, first, count == 2 ? &beside : nullptr);
+    const scene::ShownName name(options.scene);
+    write_explanation(source, description, {name.text, built.width, built.height, options.x, options.y}, first,
+                      count == 2 ? &beside : nullptr);
     source.finish(); // main() says what could not be written
     return 0;
 }

@@ -189,12 +189,20 @@ const char* command_name(Command command)
 }
 
 // "12,34", of the pixel to explain.
-bool take_pixel(Options& o, std::string_view value)
+bool take_pixel(Options& o, const char* text)
 {
+    const std::string_view value = text;
     const size_t comma = value.find(',');
-    o.has_pixel = comma != value.npos && whole(value.substr(0, comma), 0, scene::Limits::resolution, o.x)
-        && whole(value.substr(comma + 1), 0, scene::Limits::resolution, o.y);
-    return o.has_pixel;
+    const auto take = [](std::string_view number, uint32_t& to) {
+        const bool negative = number.starts_with('-');
+        if (number.size() == negative || number.find_first_not_of("0123456789", negative) != number.npos)
+            return false;
+        if (negative || !whole(number, 0, scene::Limits::resolution, to))
+            to = UINT32_MAX;
+        return true;
+    };
+    o.pixel = text;
+    return comma != value.npos && take(value.substr(0, comma), o.x) && take(value.substr(comma + 1), o.y);
 }
 
 // "-s 64x48", "-s64x48", "--cutoff 0.1", "--cutoff=0.1"; `value` is null where none is in the argument itself.
@@ -235,8 +243,10 @@ int read_options(Command command, int argc, char** argv, Options& options)
     bool only_scenes = false;
     for (int i = 1; i < argc; i++) {
         const char* argument = argv[i];
-        if (only_scenes || argument[0] != '-' || argument[1] == 0) {
-            if (command == Command::explain && options.scene != nullptr && !options.has_pixel) {
+        const bool wants_pixel = command == Command::explain && options.scene != nullptr && options.pixel == nullptr;
+        const bool negative = argument[0] == '-' && argument[1] >= '0' && argument[1] <= '9';
+        if (only_scenes || argument[0] != '-' || argument[1] == 0 || (wants_pixel && negative)) {
+            if (wants_pixel) {
                 if (!take_pixel(options, argument))
                     return bad_options("'%s' is no pixel; expected X,Y, from 0", scene::ShownName(argument).text);
                 continue;
@@ -276,7 +286,7 @@ int read_options(Command command, int argc, char** argv, Options& options)
         return bad_options("'-a' and '-r' exclude each other: adaptive sampling chooses the samples of a pixel");
     if (options.scene == nullptr || *options.scene == 0)
         return bad_options("no scene; '%s -h' shows how to give one", command_name(command));
-    if (command == Command::explain && !options.has_pixel)
+    if (command == Command::explain && options.pixel == nullptr)
         return bad_options("no pixel; expected X,Y behind the scene");
     return go_on;
 }

@@ -24,8 +24,8 @@ struct Options {
     uint32_t threads = 0;     // 0: one for each processor
     bool stats = false, quiet = false;
     const char* name = "scene"; // qray compile: the namespace
-    bool has_pixel = false;     // qray explain: of which pixel,
-    uint32_t x = 0, y = 0;
+    const char* pixel = nullptr; // qray explain: of which pixel, as it was given,
+    uint32_t x = 0, y = 0;       // and as numbers; what is negative or large is larger than any picture
     Number beside = Number::q32; // and beside which other number system, if not `number`
 };
 

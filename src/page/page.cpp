@@ -69,6 +69,7 @@ static_assert(std::size(kernels) == std::size(cli::number_names));
 
 // Without constructors: the linker would have each call from JavaScript run these first.
 constinit scene::Description description{};
+char scene_name[256];
 constinit scene::Room text, picture;
 constinit scene::Settings settings; // of the picture
 const Kernel* kernel = nullptr; // of the picture
@@ -164,6 +165,7 @@ QRAY_EXPORT(parse) const char* parse(const char* name, size_t size)
     scene::Error error;
     text.at[size] = 0;
     kernel = nullptr;
+    snprintf(scene_name, sizeof scene_name, "%s", name);
     if (size > scene::Limits::text || !cli::make_room(description.room, description.lay_out(size)))
         return answer_error("not enough memory for the scene");
     constexpr scene::Files files{append_file, cli::grow_room};
@@ -263,7 +265,11 @@ QRAY_EXPORT(comb) uint8_t* comb(uint32_t k)
 
 #if QRAY_EXPLAIN
 constinit cli::Explanation explanations[2]{};
-const char* explained[2];
+constinit struct {
+    const char* number;
+    scene::Settings settings;
+} explained[2]{};
+constinit cli::Place place{};
 
 // Why a pixel of the scene that was built last has its colour, as the first or the second of two.
 QRAY_EXPORT(explain) void explain(uint32_t which, uint32_t x, uint32_t y)
@@ -271,14 +277,15 @@ QRAY_EXPORT(explain) void explain(uint32_t which, uint32_t x, uint32_t y)
     uint32_t number = 0;
     while (strcmp(kernel->name, cli::number_names[number]) != 0)
         number++;
-    explained[which] = kernel->name;
+    explained[which] = {kernel->name, settings};
+    place = {scene_name, built.width, built.height, x, y};
     cli::Explanation& e = explanations[which];
     e.samples.count = e.rays.count = e.lights.count = 0;
     e.whole = true;
     cli::explain_pixel(static_cast<cli::Number>(number), description, x, y, e);
 }
 
-// That as text, of one or of both.
+// That as text, of one or of both; these go by their number systems, or by A and B where they share one.
 QRAY_EXPORT(explanation) const char* explanation(uint32_t count)
 {
     static scene::Bytes all;
@@ -291,8 +298,13 @@ QRAY_EXPORT(explanation) const char* explanation(uint32_t count)
         return true;
     };
     scene::Source source(append, nullptr);
-    const cli::Explained first{explained[0], explanations[0]}, beside{explained[1], explanations[1]};
-    write_explanation(source, description, settings, first, count == 2 ? &beside : nullptr);
+    const bool alike = explained[0].number == explained[1].number;
+    const auto of = [alike](uint32_t i) {
+        const auto& e = explained[i];
+        return cli::Explained{alike ? i == 0 ? "A" : "B" : e.number, e.number, e.settings, explanations[i]};
+    };
+    const cli::Explained first = of(0), beside = of(1);
+    write_explanation(source, description, place, first, count == 2 ? &beside : nullptr);
     if (!source.finish() || !explanations[0].whole || (count == 2 && !explanations[1].whole))
         return "not enough memory for all rays of this pixel";
     all.room.at[all.size] = 0;
