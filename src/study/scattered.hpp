@@ -1,5 +1,5 @@
-// A picture's pixels in an order that looks like chance: combs of up to 64 pixels of a row, each comb once. The
-// beginning of the order stands for the whole picture, whatever lies in its rows and columns.
+// A picture's pixels in an order whose beginning stands for the whole: combs of up to 64 pixels of a row, each once,
+// in rows far from each other.
 #pragma once
 
 #include <stdint.h>
@@ -23,22 +23,30 @@ struct Scattered {
     struct Comb {
         uint32_t x, y;
     };
-    // The k-th, k < count(). Each step can be undone within the next power of two; what is beyond goes round again.
+    // The k-th, k < count(). Rows go round by steps of the golden section, so that after any number of combs they lie
+    // about evenly over the picture, and over what repeats in it.
     constexpr Comb operator()(uint32_t k) const
     {
-        uint32_t bits = 1;
-        while (uint32_t{1} << bits < count())
-            bits++;
-        const uint32_t mask = (uint32_t{1} << bits) - 1, factors[] = {0x7feb352d, 0x846ca68b, 0x9e3779b1};
-        do {
-            k = (k + 0x9e3779b9) & mask;
-            for (uint32_t factor : factors) {
-                k ^= k >> (bits + 1) / 2;
-                k = k * factor & mask;
+        const uint32_t y = static_cast<uint32_t>((uint64_t{k % height} * step() + height / 2) % height);
+        return {((y * 0x9e3779b1 >> 16) + k / height) % stride(), y};
+    }
+
+private:
+    // Undone only by going round all rows.
+    constexpr uint32_t step() const
+    {
+        const auto divisor = [](uint32_t a, uint32_t b) {
+            while (b != 0) {
+                const uint32_t rest = a % b;
+                a = b;
+                b = rest;
             }
-            k ^= k >> (bits + 1) / 2;
-        } while (k >= count());
-        return {k % stride(), k / stride()};
+            return a;
+        };
+        uint32_t n = static_cast<uint32_t>(height * 0.6180339887 + 0.5);
+        while (divisor(n, height) != 1)
+            n++;
+        return n;
     }
 };
 
