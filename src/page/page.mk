@@ -13,7 +13,8 @@ PAGE_OBJECTS := $(patsubst src/%.cpp,build/page/obj/%.o,$(wildcard src/scene/*.c
     src/cli/explain.cpp src/cli/observe.cpp src/page/page.cpp) $(PAGE_NUMBERS:%=build/page/obj/kernel_%.o)
 
 page: build/page/index.html
-build/page/index.html: build/page/qray.wasm $(wildcard src/page/page.* scenes/*) src/study/README.md
+build/page/index.html: build/page/qray.wasm build/qray $(wildcard src/page/page.* src/page/worker.js scenes/*) \
+    src/study/README.md src/study/cycles.py
 	@$(PYTHON) src/page/page.py $@
 	@echo "build/page/index.html, $$(wc -c < $@) bytes: open it with a browser"
 build/page/qray.wasm: $(PAGE_OBJECTS) src/page/page.mk

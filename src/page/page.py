@@ -10,6 +10,7 @@ import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "study"))
+from cycles import PARTS  # noqa: E402
 from settings import BOARDS  # noqa: E402
 
 STUDY = "src/study/README.md"
@@ -72,6 +73,7 @@ def main():
         "files": {name: packed(read(f"scenes/{name}", "rb")) for name in sorted(os.listdir("scenes")) if name in named},
         "costs": costs(),
         "boards": BOARDS,
+        "parts": {board: {"name": PARTS[board].name, "mhz": PARTS[board].clock / 1e6} for board in BOARDS},
     }
     parts = {name: read(f"{HERE}/{name}") for name in ("page.css", "worker.js", "page.js")}
     parts["data"] = json.dumps(data, ensure_ascii=False).replace("</", "<\\/")

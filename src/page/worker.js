@@ -63,7 +63,8 @@ function build(job, s) {
                                      s.levels, s.threshold, s.depth, s.cutoff)));
 }
 
-const all_rays = () => [0, 1, 2, 3].map(kind => wasm.ray_count(kind));
+const rays = () => [0, 1, 2, 3].map(kind => wasm.ray_count(kind));
+const all_rays = () => rays().reduce((a, b) => a + b);
 
 // Calls part(i) for all i below count, and between slices rest(next i, ms so far); ms.
 async function in_slices(job, count, part, rest = () => {}) {
@@ -95,7 +96,7 @@ const jobs = {
             postMessage({id: job.id, first, rgb, part: next / built.height, ms}, [rgb.buffer]);
             first = next;
         });
-        postMessage({id: job.id, done: true, ms: time, rays: all_rays()});
+        postMessage({id: job.id, done: true, ms: time, rays: rays()});
     },
 
     async compare(job) {
@@ -135,23 +136,34 @@ const jobs = {
                 }
                 throw error;
             }
-            const combs = Math.min(built.combs, Math.ceil(job.pixels / built.length)), size = 3 * built.length * combs;
+            // A small picture is drawn whole.
+            const pixels = built.width * built.height, exact = pixels <= job.pixels;
+            const parts = exact ? built.height : Math.min(built.combs, Math.ceil(job.pixels / built.length));
+            const size = 3 * (exact ? built.width : built.length) * parts;
             let at = 0;
-            await in_slices(job, combs, k => {
-                const to = wasm.comb(k);
+            await in_slices(job, parts, k => {
+                const to = exact ? wasm.row(k) : wasm.comb(k);
                 at = k === 0 ? to : at;
-            }, k => postMessage({id: job.id, part: (done + work(s) * k / combs) / all}));
+            }, k => postMessage({id: job.id, part: (done + work(s) * k / parts) / all}));
             done += work(s);
             const rgb = bytes(at, size).slice();
             truth ??= rgb;
             let squares = 0;
             for (let i = 0; i < size; i++)
                 squares += (rgb[i] - truth[i]) ** 2;
-            const rays = all_rays().reduce((a, b) => a + b) * built.width * built.height / (built.length * combs);
             if (rgb !== truth)
-                postMessage({id: job.id, settings: s, rays, error: squares / size});
+                postMessage({id: job.id, settings: s, exact, rays: all_rays() * 3 * pixels / size,
+                             error: squares / size});
         }
         postMessage({id: job.id, done: true});
+    },
+
+    // Rays of the whole picture.
+    async count(job) {
+        read(job);
+        const {height} = build(job, job.settings);
+        await in_slices(job, height, y => wasm.row(y), y => postMessage({id: job.id, part: y / height}));
+        postMessage({id: job.id, rays: all_rays()});
     },
 };
 
