@@ -43,8 +43,8 @@ const dials = {
     samples: {label: 'Samples a pixel', help: 'Rays of the eye in each pixel, whose colours are averaged',
               values: squares, when: s => s.levels === 0,
               able: v => whole(Math.sqrt(v), 1, 64), expected: 'a square from 1 to 4096'},
-    levels: {label: 'Adaptive sampling', help: 'How often a part of a pixel whose samples differ is cut into quarters',
-             values: [0, 1, 2, 3, 4, 5, 6], text: v => v === 0 ? 'off' : `${v} level${v === 1 ? '' : 's'}`,
+    levels: {label: 'Adaptive levels', help: 'How often a part of a pixel whose samples differ is cut into quarters',
+             values: [0, 1, 2, 3, 4, 5, 6], text: v => v === 0 ? 'off' : String(v),
              able: v => whole(v, 0, 6), expected: 'a whole number from 0 to 6'},
     threshold: {label: 'Its threshold', help: 'The least difference of samples, 1 from black to white, that is cut',
                 values: Array.from({length: 33}, (_, i) => i / 64), text: v => v.toFixed(3), when: s => s.levels > 1,
@@ -381,9 +381,11 @@ function explain() {
         if (text.length > longest_explanation)
             text = text.slice(0, text.lastIndexOf('\n', longest_explanation))
                 + '\n… and much more: fewer samples have less to explain, and `qray explain` prints it all';
-        // Lines of the text lead there.
-        $('explain').replaceChildren(...text.split(/(line \d+)/).map((part, i) => i % 2 === 0 ? part
-            : element('button', {type: 'button', textContent: part, onclick: () => go_to(+part.slice(5), 1)})));
+        // Lines of the text lead there. What parts the two stands out.
+        const linked = line => line.split(/(line \d+)/).map((part, i) => i % 2 === 0 ? part
+            : element('button', {type: 'button', textContent: part, onclick: () => go_to(+part.slice(5), 1)}));
+        $('explain').replaceChildren(...text.split(/(?<=\n)/).flatMap(line => /^[| +-]*! /.test(line)
+            ? element('mark', {}, ...linked(line)) : linked(line)));
         Object.assign($('explain').dataset, {pixel: `${x},${y}`, settings: of});
     });
 }

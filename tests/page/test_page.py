@@ -238,6 +238,8 @@ class PageTest(unittest.TestCase):
                 heads = [f"{mark}: {own.splitlines()[1]}" if marks == "AB" else own.splitlines()[1]
                          for mark, own in zip(marks, (one, two))]
                 self.assertEqual([line.removeprefix("! ") for line in text.splitlines()[1:3]], heads)
+                marked = [mark.text.rstrip() for mark in self.driver.find_elements(By.CSS_SELECTOR, "#explain mark")]
+                self.assertEqual(marked, [line for line in text.splitlines() if "! " in line])
                 if dials[0] == "-r":
                     self.assertIn(f"\n! {marks[0]} has 1 sample, {marks[1]} 4, of which 0 are at the same places.\n",
                                   text)
