@@ -40,7 +40,8 @@ def decibels(mean_square):
 
 def flip(truth, *others):
     """[{flip, seen}] of PPMs: the mean of FLIP, and the share of pixels above the threshold of seeing (flip.hpp)."""
-    return [json.loads(line) for line in output_of("build/study/flip", truth, *others).splitlines()]
+    found = map(json.loads, output_of("build/study/flip", truth, *others).splitlines())
+    return [{k: of[k] for k in ("flip", "seen")} for of in found]
 
 
 def errors(picture, truth):
