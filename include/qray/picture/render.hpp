@@ -26,6 +26,32 @@ constexpr Pixel render_pixel(const Scene<N, E>& scene, uint32_t i, uint32_t j, C
         return pixel_at(scene, c.row(y) + c.right * x, count);
 }
 
+namespace detail {
+
+template <Effects E>
+constexpr bool one_moving_sample = E.moving && !E.grid && !E.adaptive && !E.panel;
+
+// A part of row j, from pixel x on, of a scene whose camera is in RAM: it is read once, and in fixed point a step to the
+// next pixel is a sum instead of products.
+template <class Format, class N, Effects E, class Count>
+constexpr void render_moving(const Scene<N, E>& scene, uint32_t x, uint32_t j, uint32_t width, uint8_t* out,
+                             Count& count)
+{
+    const Camera<N>& c = scene.camera;
+    const int32_t left = 2 * static_cast<int32_t>(x) + 1 - c.width, down = 2 * static_cast<int32_t>(j) + 1 - c.height;
+    const Pencil<N> row = c.row(down), right = c.right, step = right * 2;
+    Pencil<N> at = row + right * left;
+    for (uint32_t i = 0; i < width; i++) {
+        if constexpr (!N::is_fixed)
+            at = row + right * (left + 2 * static_cast<int32_t>(i));
+        else if (i != 0)
+            at = at + step;
+        Format::put(pixel_at(scene, at, count), x + i, j, out + i / Format::pixels * Format::bytes);
+    }
+}
+
+} // namespace detail
+
 // Row j into out: row_bytes<Format>(width) bytes.
 template <class Format, class N, Effects E, class Count = NoCount>
 constexpr void render_row(const Scene<N, E>& scene, uint32_t j, uint8_t* out, Count&& count = Count{})
@@ -41,6 +67,8 @@ constexpr void render_row(const Scene<N, E>& scene, uint32_t j, uint8_t* out, Co
         }
         return;
     }
+    if constexpr (detail::one_moving_sample<E>)
+        return detail::render_moving<Format>(scene, 0, j, scene.camera.width, out, count);
     for (uint32_t i = 0; i < scene.camera.width; i++)
         Format::put(render_pixel(scene, i, j, count), i, j, out + i / Format::pixels * Format::bytes);
 }
@@ -52,9 +80,12 @@ constexpr void render_rect(const Scene<N, E>& scene, uint32_t x, uint32_t y, uin
                            uint8_t* out, Count&& count = Count{})
 {
     for (uint32_t j = 0; j < height; j++, out += row_bytes<Format>(width))
-        for (uint32_t i = 0; i < width; i++)
-            Format::put(render_pixel(scene, x + i, y + j, count), x + i, y + j,
-                        out + i / Format::pixels * Format::bytes);
+        if constexpr (detail::one_moving_sample<E>)
+            detail::render_moving<Format>(scene, x, y + j, width, out, count);
+        else
+            for (uint32_t i = 0; i < width; i++)
+                Format::put(render_pixel(scene, x + i, y + j, count), x + i, y + j,
+                            out + i / Format::pixels * Format::bytes);
 }
 
 // All rows from the top, through the caller's buffer of `rows` rows, 1 or more, to
