@@ -488,22 +488,24 @@ class Scenes(Cli):
         self.fails(1, "folder/scene.nff:2:43: cannot read 'pictures/one.ppm': No such file or directory",
                    "folder/scene.nff")
 
-    # The radius of the first scenes is 1/2: planes as far as 64 leave steps of 1/512, as far as 128 of 1/256. That of
-    # the others is 1.03: steps are 2^-15, and the limit for a texture is 2^-27.
-    def test_refused_by_q16(self):
-        plane = view() + "plane 0 0 0 0 1 0 far "
+    # The radius of the first scenes is 1/2: planes as far as 64 leave q16 steps of 1/512, as far as 128 of 1/256. That
+    # of the others is 1.03: its steps are 2^-15, and the limit for a texture is 2^-27. q24's are 64 times as fine.
+    def test_refused_by_q16_and_q24(self):
+        plane = view() + "plane 0 0 0 0 1 0 far {}"
         fine = view() + "texture checker 0 0 0 {} s 0 0 0 0.5"
-        for text, refusal in ((plane + "64", None),
-                              (plane + "128", r"steps of 0\.00391 .* radius of 0\.5 is less than 256 of them"),
-                              (fine.format(2.0 ** -27), None),
-                              (fine.format(2.0 ** -28),
-                               r"steps of 3\.05e-05 .* size of 3\.73e-09 is less than 1/4096 of one")):
-            with self.subTest(text=text[-40:]):
-                self.write("bad.nff", text)
+        far = r"steps of 0\.00391 .* radius of 0\.5 is less than 256 of them"
+        small = r"steps of %s .* size of %s is less than 1/4096 of one"
+        for number, text, value, refusal in (
+                ("q16", plane, 64, None), ("q16", plane, 128, far),
+                ("q24", plane, 64 * 64, None), ("q24", plane, 64 * 128, far),
+                ("q16", fine, 2.0 ** -27, None), ("q16", fine, 2.0 ** -28, small % (r"3\.05e-05", r"3\.73e-09")),
+                ("q24", fine, 2.0 ** -33, None), ("q24", fine, 2.0 ** -34, small % (r"4\.77e-07", r"5\.82e-11"))):
+            with self.subTest(number=number, text=text[-40:], value=value):
+                self.write("bad.nff", text.format(value))
                 if refusal:
-                    self.fails(1, "bad.nff: q16 has lengths in " + refusal, "-n", "q16", "bad.nff")
+                    self.fails(1, f"bad.nff: {number} has lengths in {refusal}", "-n", number, "bad.nff")
                 else:
-                    self.assertEqual(self.run_qray("-q", "-n", "q16", "bad.nff")[0], 0)
+                    self.assertEqual(self.run_qray("-q", "-n", number, "bad.nff")[0], 0)
                 self.assertEqual(self.run_qray("-q", "bad.nff")[0], 0)
 
     def test_text_limit(self):
@@ -628,7 +630,7 @@ class Builds(unittest.TestCase):
         self.assertGreaterEqual(len(SCENES), 10)
         for scene in self.scenes:
             for arguments in (["-s", "80x60"], ["-s", "24x18", "-r", "4", "-d", "9"], ["-s", "24x18", "-a", "2"],
-                              ["-s", "40x30", "-n", "q16"]):
+                              ["-s", "40x30", "-n", "q16"], ["-s", "40x30", "-n", "q24"]):
                 if "cornell" in scene and "80x60" not in arguments:  # once: it takes long to solve
                     continue
                 expected = self.picture(QRAY, scene, *arguments)

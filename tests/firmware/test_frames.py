@@ -18,7 +18,7 @@ SCENE = "build/frames_test/moves.nff"
 WITHIN = "-7,-1,-7,7,7,7"
 ANIMATIONS = ["orbit", "ball", "tumble", "mesh"]
 BOARDS = ["microbit", "mps2_an385", "mps2_an386", "rv32_virt"]
-NUMBERS = ["q16", "q32", "float"]
+NUMBERS = ["q16", "q32", "float", "q24"]
 
 
 def scene():
@@ -56,7 +56,7 @@ class Frames(unittest.TestCase):
         with open(SCENE, "w") as file:
             file.write(scene())
         for k, animation in enumerate(ANIMATIONS):
-            for number in NUMBERS if ALL else [NUMBERS[k % 3]]:
+            for number in NUMBERS if ALL else [NUMBERS[k]]:
                 boards = BOARDS if ALL else [BOARDS[k]]
                 self.drawn("frames", f"ANIMATION={animation}", f"NUMBER={number}")
                 expected = contents(f"build/frames/moves-{animation}-{number}.ppm")
