@@ -34,6 +34,16 @@ TEST(Rounding, IsToTheNearestHalvesUp)
     EXPECT_EQ(Rounding(0)(2.5), 3);
 }
 
+TEST(Rounding, CutsDownward)
+{
+    const Rounding four(4, true);
+    EXPECT_EQ(four(1.9 / 16), 1.0 / 16);
+    EXPECT_EQ(four(2.0 / 16), 2.0 / 16);
+    EXPECT_EQ(four(-0.1 / 16), -1.0 / 16);
+    EXPECT_EQ(four(-2.0 / 16), -2.0 / 16);
+    EXPECT_EQ(Rounding(study::exact, true)(0.1), 0.1);
+}
+
 TEST(Rounding, LeavesWhatHasNoMoreBits)
 {
     const double all[] = {0.1, -1e300, 0x1p52 + 1, INFINITY, 3.0000000000000004};
@@ -76,7 +86,7 @@ std::string scene_of(const std::string& name, const std::string& size)
 
 TEST(Stepped, IsDoubleWhereNothingIsRounded)
 {
-    for (const char* name : {"glass", "showcase", "castle"}) {
+    for (const char* name : {"glass", "showcase", "castle", "cornell"}) {
         const std::string text = scene_of(name, "32 24");
         ASSERT_TRUE(loaded<Double>(text));
         EXPECT_EQ(stepped(text, Widths()), draw<Double>()) << name;
@@ -115,15 +125,62 @@ TEST(Stepped, RoundsCoordinatesAfterTheBuildersScale)
     }
 }
 
+TEST(Stepped, CutsSharesOfColours)
+{
+    // What is painted 0.9, 0.5 and 0.05 under light of 1: 14.4, 8 and 0.8 of 16.
+    const std::string text = "v from 0 0 5 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 1 1\n ambientlight 1 1 1\n"
+                             "material colour 0.9 0.5 0.05 ambient 1 diffuse 0\n s 0 0 0 1\n";
+    Widths w;
+    EXPECT_EQ(stepped(text, w).rgb, (std::vector<uint8_t>{230, 128, 13}));
+    w[Step::share] = 4;
+    EXPECT_EQ(stepped(text, w).rgb, (std::vector<uint8_t>{223, 128, 16})); // 14, 8 and 1 of 16
+    w.cuts[static_cast<int>(Step::share)] = true;
+    EXPECT_EQ(stepped(text, w).rgb, (std::vector<uint8_t>{223, 128, 0})); // 14, 8 and 0
+}
+
+TEST(Stepped, RaysStartOffTheSurfaceByBitsOfTheHitPoint)
+{
+    // Above the middle of a mirror, a ceiling 0.2 away that ends at x = 0.1: a ray that comes down at 45 degrees along
+    // x and starts h above the mirror meets it 0.2 - h farther on. With 5 bits of a point, h is 2 / 32 or 6 / 32. So
+    // large a scene is not scaled.
+    const std::string text = "v from -80 80 0 at 0 0 0 up 0 0 1 angle 0.001 hither 1 resolution 1 1\n b 0 0 0\n"
+                             "ambientlight 1 1 1\n material colour 0 0 0 mirror 1\n p 4 -1 0 -1 -1 0 1 1 0 1 1 0 -1\n"
+                             "material colour 1 1 1 ambient 1 diffuse 0\n"
+                             "p 4 0.1 0.2 -1 0.1 0.2 1 1 0.2 1 1 0.2 -1\n";
+    Widths w;
+    EXPECT_EQ(stepped(text, w).rgb[0], 255);
+    w[Step::point] = 5;
+    EXPECT_EQ(stepped(text, w).rgb[0], 255); // 0.2 - 1/16 = 0.1375
+    w.leave = 6;
+    EXPECT_EQ(stepped(text, w).rgb[0], 0); // 0.0125
+}
+
 TEST(Stepped, ReachesEachStep)
 {
-    const std::string text = scene_of("glass", "40 30");
-    const Picture exact = stepped(text, Widths());
     for (int step = 0; step < study::steps; step++) {
+        const std::string text = scene_of(Step{step} == Step::map ? "cornell" : "glass", "40 30");
+        const Picture exact = stepped(text, Widths());
         Widths w;
         w.bits[step] = 3;
         EXPECT_FALSE(stepped(text, w) == exact) << step;
     }
+}
+
+// The bits that q24's header tells of, and those that differ from q32's.
+TEST(Stepped, HasTheWidthsOfQ24)
+{
+    const Widths w = study::widths_of<q24>(2);
+    EXPECT_EQ(w[Step::camera], 20);
+    EXPECT_EQ(w[Step::point], 16);
+    EXPECT_EQ(w.leave, 4);
+    EXPECT_EQ(w[Step::eta], 17);
+    EXPECT_EQ(w[Step::colour], 11);
+    EXPECT_EQ(w[Step::share], 14);
+    EXPECT_TRUE(w.cuts[static_cast<int>(Step::share)]);
+    EXPECT_EQ(w[Step::curved], 15);
+    EXPECT_EQ(w[Step::row], 21);
+    EXPECT_EQ(study::widths_of<q32>(0)[Step::curved], 30);
+    EXPECT_EQ(study::widths_of<q16>(0)[Step::quotient], 15);
 }
 
 } // namespace

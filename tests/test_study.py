@@ -65,11 +65,19 @@ class Parts(unittest.TestCase):
         b.bits = [4, 6, 8]
         rows = [50, 61, 70], [61, 50, 70], [70, 61, 60], [1, 2, 3]
         self.assertEqual([b.needed(row, 60) for row in rows], [6, 8, 4, None])
-        # Squares that make 0 dB each, of a shade or of an edge: three edges of 2, 3 and 6 are as far as one of 7.
+        # Squares that make 0 dB each, of a shade or of an edge: three edges of 2, 3 and 6 are as far as one of 7. Each
+        # bit fewer doubles what an edge is off by.
         one = 255 ** 2
-        b.found = {"s": {"levels": 1, "numbers": {"n": {"reached": [one, 0], "together": [0, one * 10],
-                                                       "alone": [[one, one * 2], [one * 2, one * 3], [0, one * 6]]}}}}
-        self.assertEqual([round(v, 6) for v in b.predicted("s", "n")], [0, -10, -10])
+
+        def predicted(pixels):
+            alone = [[[one, one * 2, pixels], [one, one * 2, pixels], 0],
+                     [[one * 2, 0, 0], [one * 9, one * 48, 16 * pixels], 4], [[0, one * 6, 0], [0, one * 6, 0], 0]]
+            b.found = {"s": {"levels": 1, "larger": 4, "alone": {"n": alone},
+                             "reached": {"n": [[one * 4, 0, 0], [0, one * 40, 9]]}}}
+            return [round(v, 6) for v in b.predicted("s", "n")]
+        self.assertEqual(predicted(1), [0, -10, -10])
+        self.assertEqual(predicted(0.125), [0, -10, -10])  # 0.177 pixels, in the larger picture 0.7
+        self.assertEqual(predicted(0.0625), [0, -10, -4.771213])  # 0.35: none
 
     def test_report_finds_stale_tables(self):
         reports = {"one": (None, lambda: ["a", "b"])}

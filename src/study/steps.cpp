@@ -24,12 +24,20 @@ constexpr Vec<F> of(int x, int y, int z)
     return {of<F>(x), of<F>(y), of<F>(z)};
 }
 
+// What a light map asks of a scene.
+struct LightTables {
+    Table<LightCell<N>, true> light_cells;
+    Table<LightKnot<N>, true> light_knots;
+    Table<LightCut<N>, true> light_cuts;
+    Table<LightPlane<N>, true> light_planes;
+};
+
 // A ball of radius 1, and a ray that meets it; numbers that a compiler does not see.
 struct Operands {
     Sphere<N> ball{};
     Point<N> to_ball = of<N::Length>(6000, 7200, 7400), near = of<N::Length>(100, -200, 300);
     Point<N> hit = of<N::Length>(480, -600, 640);
-    Direction<N> d = of<N::Unit>(480, 600, 640), n = of<N::Unit>(-600, -640, -480), out{};
+    Direction<N> d = of<N::Unit>(480, 600, 640), n = of<N::Unit>(-600, -640, -480), out = d;
     Pencil<N> pencil{};
     N::Length middle = of<N::Length>(12000), half = of<N::Length>(900), t{};
     N::Unit u = of<N::Unit>(-979), v = of<N::Unit>(700), w{};
@@ -40,6 +48,9 @@ struct Operands {
     Rgb<N> colour = of<N::Colour>(500, 600, 700), sum = of<N::Colour>(100, 200, 300), light{};
     LatticeAxis<N> axis{};
     Cell<N> cell{};
+    LightAxis<N> axis_of_map{{}, 255, LightAxis<N>::even};
+    LightMap<N> map{axis_of_map, axis_of_map, {}, 2, 2, 0, LightMap<N>::whole, 0};
+    LightCell<N> cells[12]{}; // of four nodes
 };
 constinit Operands operands;
 
@@ -47,7 +58,8 @@ constinit Operands operands;
 struct Calls {
     static void nothing(Operands&) {}
     static void camera(Operands& o) { o.pencil.unit(o.out); }
-    static constexpr auto coordinate = nothing, row = nothing; // on the desktop
+    static constexpr auto coordinate = nothing, eta = nothing, row = nothing; // on the desktop
+    static constexpr auto share = nothing;                                     // with colours
     static void projection(Operands& o) { o.t = N::length(dot<N>(o.to_ball, o.d)); }
     static void perpendicular(Operands& o)
     {
@@ -58,11 +70,8 @@ struct Calls {
     static void quotient(Operands& o) { N::quotient(dot<N>(o.to_ball, o.n), dot<N>(o.d, o.n), 0, o.t); }
     static void t(Operands& o) { o.t = o.middle - N::coarse(o.half, o.ball.fine); }
     static void point(Operands& o) { o.hit = o.to_ball + along<N>(o.middle, o.d); }
-    static void normal(Operands& o)
-    {
-        o.out = ratio<N>(o.near, o.ball.inverse_radius);
-        sharpen<N>(o.out);
-    }
+    static void normal(Operands& o) { sharpen<N>(o.out); }
+    static void curved(Operands& o) { o.out = ratio<N>(o.near, o.ball.inverse_radius); }
     static void mirrored(Operands& o) { o.out = qray::mirrored<N>(o.d, o.n, o.u); }
     static void refracted(Operands& o) { qray::refracted<N>(o.d, o.n, o.u, o.eta, o.out); }
     static void light(Operands& o) { towards(o.lamp, o.hit, o.out, o.t); }
@@ -74,6 +83,7 @@ struct Calls {
         o.light = o.sum;
         add_scaled<N>(o.light, o.v, o.colour);
     }
+    static void map(Operands& o) { o.light = o.map.at<8>(o.hit, LightTables{{o.cells, 12}, {}, {}, {}}); }
     static void weight(Operands& o) { o.w = N::unit(o.v * o.u); }
 };
 
