@@ -17,8 +17,10 @@ namespace {
 
 constexpr int least_bits = 4, most_bits = 24, bits_step = 2;
 // What a number system reaches is measured in a picture that has so many times the columns and the rows: in a small
-// one, a single pixel more or less beside an edge may be 10 dB.
+// one, a single pixel more or less beside an edge may be 10 dB. It is rolled a little, as an edge along a row of pixels
+// passes all of these at once or none.
 constexpr uint32_t larger = 4;
+constexpr double roll = 0.05;
 // Where a step shows something else in fewer pixels than that, it is asked with fewer bits, but not with so few that
 // shades are off by as much as what moves.
 constexpr int enough = 16, fewer_bits[] = {0, 4, 8}, least_fewer = 8;
@@ -205,6 +207,9 @@ int run(int argc, char** argv)
         return cli::bad_options("%s: no picture", options.scene);
     printf("{\"levels\": %zu, ", truth.size());
     print_steps();
+    scene::Vec3d& up = description.view.up;
+    up = unit(up) + cross(unit(description.view.at - description.view.from), unit(up)) * roll;
+    draw(cli::double_renderer, truth);
     printf(", \"alone\": {");
 #define QRAY_NUMBER(Type, name) print_alone<Type>(cli::Number::Type);
     QRAY_NUMBERS(QRAY_NUMBER)

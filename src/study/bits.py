@@ -197,7 +197,7 @@ def sentences(b, cost):
 def study(folder, quick):
     """For make study: the table as CSV, and the plot."""
     b = Bits(["scenes/floor.nff", "scenes/glass.nff"], "64x48") if quick else Bits(scenes(), SIZE)
-    figures.steps(b, {} if quick else costs(b.numbers), f"{folder}/steps.svg")
+    figures.steps(b, {} if quick else costs(b.numbers), TARGET, f"{folder}/steps.svg")
     with open(f"{folder}/steps.csv", "w", newline="") as file:
         out = csv.writer(file)
         out.writerow(["scene", "size", "step", "bits", "psnr"])
@@ -209,7 +209,7 @@ def study(folder, quick):
 def report():
     b = Bits(scenes(), SIZE)
     cost = costs(b.numbers)
-    figures.steps(b, cost, f"{FIGURES}/steps.svg")
+    figures.steps(b, cost, TARGET, f"{FIGURES}/steps.svg")
     return f"""![Accuracy by step and bits]({FIGURES}/steps.svg)
 
 {sentences(b, cost)}

@@ -200,44 +200,52 @@ def panel(study, path):
     save(figure, path, "The showcase in each number system, and how far it is off")
 
 
-def steps(b, cost, path):
-    """Of bits.py: accuracy by step and bits, the bits that each scene needs, and what a step takes on boards."""
-    figure, (left, right, bars) = plt.subplots(1, 3, figsize=(16, 6.2), sharey=True,
-                                               width_ratios=[6, 7, 3 if cost else 0.01])
-    nothing, most = [math.nan] * len(b.bits), b.bits[-1] + 2
-
-    def heat(axes, columns, values, text, **options):
-        shown = axes.imshow(values, aspect="auto", **options)
-        for y, row in enumerate(values):
-            for x, value in enumerate(row):
-                if value == value:
-                    axes.text(x, y, text(value), ha="center", va="center", fontsize=7,
-                              color="white" if shown.norm(value) < 0.5 else "black")
-        axes.set_xticks(range(len(columns)), columns)
-        axes.grid(False)
-
-    rows = [*b.at.values(), b.together]
-    heat(left, b.bits, [b.median(row) if row else nothing for row in rows], lambda v: f"{v:.0f}", cmap="viridis",
-         vmin=20, vmax=99)
-    left.set(title="dB, median of scenes", xlabel="bits")
-    left.set_yticks(range(len(rows)), [*b.what.values(), "all together"])
-    heat(right, [name_of(s) for s in b.found],
-         [[(b.needed(row[s]) or most) if s in row else math.nan for s in b.found] for row in rows],
-         lambda v: f"{v}" if v < most else ">", cmap="magma", vmin=4, vmax=most)
-    right.set_title("bits for 60 dB, by scene")
-    right.tick_params(axis="x", rotation=90)
-    bars.set_title("instructions a call" if cost else "")
-    for k, (board, number) in enumerate(cost):
-        own = cost[board, number]
-        bars.barh([y + ((k + 0.5) / len(cost) - 0.5) * 0.8 for y in range(len(b.what))], [own[n] for n in b.what],
-                  0.8 / len(cost), color=COLOURS.get(number, "#117a8b"), label=f"{runs.BOARDS[board]} {number}",
-                  alpha=1 if board == next(iter(cost))[0] else 0.5)
-    if cost:
-        bars.legend(loc="lower right")
-    else:
-        bars.axis("off")
-    save(figure, path, "What each bit of each step buys",
-         f"One step rounds, all else is double; PSNR to double, {b.size} pixels. Blank: the scene has no such step.")
+def steps(b, cost, target, path):
+    """Of bits.py: accuracy by step and bits, those that need the most first, and what a step takes on boards."""
+    boards = list(dict.fromkeys(board for board, _ in cost))
+    figure, (heat, *prices) = plt.subplots(1, 1 + len(boards), figsize=(8.6 + 2.6 * len(boards), 8), sharey=True,
+                                           width_ratios=[6] + [2] * len(boards))
+    medians = {name: b.median(row) for name, row in b.at.items() if row}
+    names = sorted(medians, key=lambda name: (-(b.needed(medians[name]) or math.inf), sum(medians[name])))
+    values = [b.median(b.together), *(medians[name] for name in names)]
+    # Few tones, so that one tells them apart: each is worth 10 dB.
+    levels = [0, 20, 30, 40, 50, target, 100]
+    tones = matplotlib.colors.ListedColormap(["#a63603", "#e6550d", "#fd8d3c", "#fdbe85", "#feedde", "#c7e0f1"])
+    picture = heat.imshow(values, aspect="auto", cmap=tones,
+                          norm=matplotlib.colors.BoundaryNorm(levels, len(tones.colors)))
+    for y, row in enumerate(values):
+        for x, value in enumerate(row):
+            heat.text(x, y, f"{value:.0f}", ha="center", va="center", fontsize=10,
+                      color="white" if value < 30 else "black")
+        enough = b.needed(row)
+        if enough:
+            at = b.bits.index(enough) - 0.5
+            heat.plot([at, at], [y - 0.5, y + 0.5], color="black", linewidth=2.5)
+    heat.axhline(0.5, color="white", linewidth=4)
+    heat.set_xticks(range(len(b.bits)), b.bits, fontsize=10)
+    heat.set_yticks(range(len(values)), ["all together", *(b.what[name] for name in names)], fontsize=10)
+    heat.set_xlabel("bits behind the point of this step alone", fontsize=10)
+    heat.set_title(f"PSNR in dB, median of scenes; right of the line {target} dB", fontsize=10)
+    heat.grid(False)
+    heat.tick_params(length=0)
+    figure.colorbar(picture, ax=heat, orientation="horizontal", fraction=0.03, pad=0.01, ticks=levels[1:-1],
+                    label="dB")
+    for axes, board in zip(prices, boards):
+        own = {number: cost[board, number] for of, number in cost if of == board}
+        for y, name in enumerate(names, 1):
+            row = [of[name] for of in own.values() if of[name] >= 0.5]
+            axes.plot(row, [y] * len(row), color="#99a", linewidth=1, zorder=1)
+        for number, of in own.items():
+            axes.plot(*zip(*((of[name], y) for y, name in enumerate(names, 1) if of[name] >= 0.5)),
+                      **number_style(number, label=number, markersize=7))
+        axes.set_xscale("log")
+        log_axis(axes.xaxis)
+        axes.set_title(f"instructions a call, {runs.BOARDS[board]}", fontsize=10)
+        axes.tick_params(axis="y", length=0)
+    if prices:
+        prices[0].legend(loc="upper left", ncols=1, fontsize=10)
+    save(figure, path, "What each bit of each step buys, and what a step takes",
+         f"One step rounds, all else is double; PSNR to double, {b.size} pixels. No instructions: stands in tables.")
 
 
 def growth(lines, path):

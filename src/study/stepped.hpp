@@ -400,6 +400,13 @@ inline Vec<double> Convert<study::Stepped>::surface(const Vec3d& c)
 {
     return {c.x, c.y, c.z};
 }
+// What keeps surfaces in a lattice's plane clean grows with what a hit point may be off, as where products have 32 bits.
+template <>
+inline double TextureBuilder<study::Stepped>::Make::epsilon() const
+{
+    const int bits = study::widths[study::Step::point];
+    return bits >= study::exact ? 1.0 / 1024 : fmax(1.0 / 1024, ldexp(1.5, -bits) / (t.size * frame.scale));
+}
 template <>
 inline int Builder<study::Stepped>::fine_for(double size, Blocks::Of Blocks::*of) const
 {
