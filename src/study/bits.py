@@ -24,7 +24,8 @@ import run as boards_run  # noqa: E402
 SIZE, TARGET = "320x240", 60
 COSTS = ["microbit", "mps2_an385"]
 PROGRAM, NOTHING = "build/study/bits", "build/study/none"
-SOURCES = ["include", "src/scene", "src/cli", "src/study/bits.cpp", "src/study/stepped.hpp", "src/study/steps.hpp"]
+SOURCES = ["include", "src/scene", "src/cli",
+           *(f"src/study/{name}" for name in ("bits.cpp", "stepped.hpp", "steps.hpp", "widths.hpp"))]
 
 
 def scenes():
