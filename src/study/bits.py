@@ -54,8 +54,9 @@ class Bits:
     def __init__(self, paths, size):
         self.size, self.found = size, measured(paths, size)
         first = next(iter(self.found.values()))
+        self.larger = math.isqrt(first["larger"])
         self.bits, self.what = first["bits"], {s["name"]: s["what"] for s in first["steps"]}
-        self.fractions = [s["name"] for s in first["steps"] if s["of"] in ("Length", "Unit", "Colour")]
+        self.fractions = [s["name"] for s in first["steps"] if s["of"] not in ("Quotient", "Row", "Cell")]
         self.numbers = list(dict.fromkeys(n for f in self.found.values() for n in f["reached"]))
         self.at = {name: {scene: self.row(scene, f["steps"][i]["squares"]) for scene, f in self.found.items()
                           if any(f["steps"][i]["squares"][0])} for i, name in enumerate(self.what)}
@@ -86,14 +87,15 @@ class Bits:
         return (statistics.median_high(own), max(own)) if own else (None, None)
 
     def sums(self, scene, number):
-        """What the errors of all steps, each alone, add up to: squares of shades, the root of the squares of what moves
-        edges. A bit fewer of a step moves these twice as far: so are known, too, what few pixels show, and from so few
-        that a picture has less than half a pixel of them, none are predicted."""
+        """What the errors of all steps, each alone, add up to. Squares of shades are added. Where edges move, squares
+        grow with how far, and ways that know nothing of each other add up to the root of their squares. With a bit
+        fewer they move twice as far: so is known what few pixels show. None are predicted where none are more likely
+        than some."""
         found = self.found[scene]
         shades, others, pixels = zip(*[(own[0], fewer[1] / 2 ** bits, fewer[2] / 2 ** bits)
                                        for own, fewer, bits in found["alone"][number]])
-        seen = math.hypot(*pixels) * found["larger"] >= 0.5
-        return sum(shades) + (math.hypot(*others) if seen else 0)
+        likely_none = math.exp(-math.hypot(*pixels) * found["larger"]) > 0.5
+        return sum(shades) + (0 if likely_none else math.hypot(*others))
 
     def predicted(self, scene, number):
         """Decibels: (reached, all steps rounded together, the sum of each alone)."""
@@ -176,8 +178,12 @@ def sentences(b, cost):
     times = [sum(cost[c, wide].values()) / sum(cost[c, narrow].values()) for c in COSTS]
     more = {name: cost[board, wide][name] - cost[board, narrow][name] for name in b.what}
     dear = listed([f"{b.what[n]} (+{more[n]:.0f} instructions)" for n in largest(more, 4)])
-    shares = b.shares(narrow)
-    worst = largest(shares, 3)
+
+    def worst(number):
+        shares = b.shares(number)
+        own = largest(shares, 3)
+        return f"`{number}`, {100 * sum(shares[n] for n in own):.0f} % is that of {listed([b.what[n] for n in own])}"
+
     each, at_once = (listed(["%d of %d scenes (`%s`)" % (*b.agree(n, kind), n) for n in b.numbers]) for kind in (2, 1))
     return "\n".join([
         f"For {TARGET} dB, {named(most)} bits behind the point (median of {len(b.found)} scenes), {named(least)}, and "
@@ -189,8 +195,8 @@ def sentences(b, cost):
         f"The bits of `{wide}` cost {times[0]:.1f} times the instructions of `{narrow}` on the {BOARDS[board]}, which "
         f"multiplies to 32 bits alone, but {times[1]:.1f} times on the {BOARDS[COSTS[1]]} (a call of each step); "
         f"dearest on the {BOARDS[board]} are {dear}.",
-        f"Of the error of `{narrow}`, {100 * sum(shares[n] for n in worst):.0f} % is that of "
-        f"{listed([b.what[n] for n in worst])} (mean of the scenes' shares): a bit more buys most there.",
+        f"Of the error of {'; of that of '.join(map(worst, b.numbers[:-1]))} (mean of the scenes' shares): a bit more "
+        "buys most there.",
         f"The errors of all steps, each alone, predict what a number system reaches within 3 dB in {each}, and all "
         f"steps rounded at once in {at_once}: a new one can be judged by this table before it is written."])
 
@@ -219,15 +225,19 @@ PSNR in dB to `double`, {b.size.replace('x', ' × ')} pixels, one sample, where 
 behind the point and all else is `double`: the median of the scenes that have the step, then the bits for {TARGET} dB in
 half of these scenes, and in all. Lengths are scene units after the builder's scale, which makes a scene fill ±62. The
 bits of quotients and of texture rows are all that these have, those of texture coordinates are parts of a cell. With
-coordinates go radii, with v·d what cones find in their own frame, with cosines the shares of light that are made of
-them, with weights the coefficients of materials. At the right, instructions of one call of the step's operations, loads
+coordinates go radii, with v·d what cones find in their own frame, with hit points how far off these new rays start,
+with curved normals what they are found from (offset / radius of a sphere, weights of a patch's corners), with cosines
+the shares of light that are made of them, with weights the coefficients of materials; shares of colours are what a
+colour is multiplied by. At the right, instructions of one call of the step's operations, loads
 and stores included, in firmware that calls nothing else (`steps.cpp`); what stands in tables takes none.
 
 {steps_table(b, cost)}
 What a number system reaches, and what its widths say: all steps rounded to its bits at once (together), and the errors
 of each alone, added (sum): squares of bytes that are off by up to 2 levels, and of others, which lie where edges have
-moved, the root of the sum of the squares of these, as ways that know nothing of each other add up. What light maps
-round (`cornell`) is no step.
+moved, the root of the sum of the squares of these, as ways that know nothing of each other add up. One pixel beside an
+edge may be 10 dB of a small picture: so what is reached, and together, are of {b.larger} times the columns and the rows,
+and edges that move in few pixels were measured with 4 or 8 bits less, which move them by 16 or 256 times as much. All
+these pictures are rolled by 3 degrees, as an edge along a row of pixels moves over all of them or over none.
 
 {numbers_table(b)}"""
 

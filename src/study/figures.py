@@ -215,7 +215,7 @@ def steps(b, cost, target, path):
                           norm=matplotlib.colors.BoundaryNorm(levels, len(tones.colors)))
     for y, row in enumerate(values):
         for x, value in enumerate(row):
-            heat.text(x, y, f"{value:.0f}", ha="center", va="center", fontsize=10,
+            heat.text(x, y, f"{math.floor(value)}", ha="center", va="center", fontsize=10,
                       color="white" if value < 30 else "black")
         enough = b.needed(row)
         if enough:
@@ -225,7 +225,7 @@ def steps(b, cost, target, path):
     heat.set_xticks(range(len(b.bits)), b.bits, fontsize=10)
     heat.set_yticks(range(len(values)), ["all together", *(b.what[name] for name in names)], fontsize=10)
     heat.set_xlabel("bits behind the point of this step alone", fontsize=10)
-    heat.set_title(f"PSNR in dB, median of scenes; right of the line {target} dB", fontsize=10)
+    heat.set_title(f"PSNR in dB, median of scenes; {target} or more from the black line on", fontsize=10)
     heat.grid(False)
     heat.tick_params(length=0)
     figure.colorbar(picture, ax=heat, orientation="horizontal", fraction=0.03, pad=0.01, ticks=levels[1:-1],
@@ -243,7 +243,7 @@ def steps(b, cost, target, path):
         axes.set_title(f"instructions a call, {runs.BOARDS[board]}", fontsize=10)
         axes.tick_params(axis="y", length=0)
     if prices:
-        prices[0].legend(loc="upper left", ncols=1, fontsize=10)
+        prices[0].legend(loc="upper center", ncols=3, fontsize=9, columnspacing=0.8, handletextpad=0.1, borderpad=0)
     save(figure, path, "What each bit of each step buys, and what a step takes",
          f"One step rounds, all else is double; PSNR to double, {b.size} pixels. No instructions: stands in tables.")
 
