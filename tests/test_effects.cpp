@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "../src/scene/numbers.hpp"
+
 namespace {
 
 using namespace qray;
@@ -144,7 +146,9 @@ Box<N> box_of(const Asked&, const Corners<N>&);
 struct Whole : Asked {
     static constexpr bool has_corners = false, keeps_local = false, is_smooth = false, is_short = false;
 };
-static_assert(ShapeIn<Whole, q16> && ShapeIn<Whole, q32> && ShapeIn<Whole, Float> && ShapeIn<Whole, Double>);
+#define QRAY_IS_IN(Type, name) &&ShapeIn<Whole, Type>
+static_assert(true QRAY_NUMBERS(QRAY_IS_IN));
+#undef QRAY_IS_IN
 
 struct NoCorners : Asked {
     static constexpr bool keeps_local = false, is_smooth = false, is_short = false;
