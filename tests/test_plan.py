@@ -2,15 +2,18 @@
 From the top of the repository, after make: python3 tests/test_plan.py"""
 
 import math
+import os
 import re
 import subprocess
 import sys
 import time
+import types
 import unittest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, "src/study")
 import pictures  # noqa: E402
+import plan as planning  # noqa: E402
 from programs import environment  # noqa: E402
 
 SCENE, BOARD, SIZE = "build/test_plan.nff", "rv32_virt", "200x150"
@@ -107,7 +110,7 @@ class Plan(unittest.TestCase):
         status, out, _ = make("run", *nearest)
         self.assertEqual(status, 0)
         self.assertLess(cycles * float(re.search(r"instructions: (\d+)", out)[1]), 1e6)
-        status, out, err = plan("ERROR=98dB")
+        status, out, err = plan("ERROR=100dB")
         self.assertNotEqual(status, 0)
         self.assertIn(f"the most accurate has {self.rows[-1]['dB']:.1f} dB", err)
 
@@ -125,6 +128,64 @@ class Plan(unittest.TestCase):
             lines = [line for line in err.splitlines() if not re.match(r"make: \*\*\* \[", line)]
             self.assertEqual(len(lines), 1, err)
             self.assertIn(said, lines[0])
+
+
+class Doubt(unittest.TestCase):
+    """What few pixels say turns nothing away that the whole picture might choose."""
+    @staticmethod
+    def plan(combs, known, asked=None, length=32):
+        """A plan that knows {setting: mean squares of the combs that were drawn}, of q16 and q32 with the same rays."""
+        pixels, out = object.__new__(planning.Pixels), object.__new__(planning.Plan)
+        pixels.head, pixels.seen = {"combs": combs, "length": length, "width": length, "height": combs}, {}
+        pixels.known = {s: [(100, 3 * length * square, 0) for square in of] for s, of in known.items()}
+        pixels.count = len(next(iter(known.values())))
+        out.pixels, out.settings, out.refused, out.built, out.cycles = pixels, list(known), {}, {}, {}
+        out.per_ray = {s: {"q16": 1, "q32": 2}[s.number] for s in known}
+        out.question = types.SimpleNamespace(decibels=asked)
+        return out
+
+    cheap, dear = (planning.Setting(n, "1", 5, "0") for n in ("q16", "q32"))
+
+    def test_the_margin(self):
+        # Of 0, 0, 0, 4 the standard error is 1; a pixel of 4 * 2 may be off by 32 levels; a quarter of the whole is drawn.
+        few = self.plan(16, {self.cheap: [0, 0, 0, 4]}, length=2).pixels
+        margin = math.sqrt(3 / 4) * (3 * 1 + 32 ** 2 / 8)
+        self.assertAlmostEqual(few.margin(few.squares(self.cheap)), margin)
+        self.assertAlmostEqual(few.decibels(self.cheap), 10 * math.log10(255 ** 2 / 1))
+        self.assertAlmostEqual(few.decibels(self.cheap, 1), 10 * math.log10(255 ** 2 / (1 + margin)))
+        self.assertEqual(few.decibels(self.cheap, -1), 99)
+        whole = self.plan(4, {self.cheap: [0, 0, 0, 4], self.dear: [0, 0, 0, 1]}, length=2).pixels
+        self.assertEqual(whole.margin(whole.squares(self.cheap)), 0)
+        self.assertAlmostEqual(whole.gain(self.dear, self.cheap), 10 * math.log10(4))
+
+    def test_what_is_turned_away(self):
+        noise = [4, 1, 9, 2, 7, 1, 3, 5] * 8
+        for combs, dear, asked, stays in (
+                (600, noise, None, False),  # the same pixels, the same errors
+                (600, [n + 1 for n in noise], None, False),
+                (600, [n + 4 for n in noise[1:] + noise[:1]], None, False),
+                (600, noise[1:] + noise[:1], None, True),  # as good, but of other pixels
+                (64, noise[1:] + noise[:1], None, False),  # that was all
+                (600, [n - 1 for n in noise], None, True),
+                (600, noise, 43, True),  # 42 dB: perhaps 43, and perhaps the other not
+                (600, noise, 38, False), (600, noise, 50, False)):
+            plan = self.plan(combs, {self.cheap: noise, self.dear: dear}, asked)
+            self.assertIn(self.cheap, plan.promising())
+            self.assertEqual(self.dear in plan.promising(), stays, (combs, dear[:8], asked))
+
+    def test_a_picture(self):
+        # 1,000 pixels of it say that 16 samples in q16 are worse than in three adaptive levels.
+        os.makedirs(planning.FOLDER, exist_ok=True)
+        question = planning.Question(["SCENE=scenes/phong.nff", "BOARD=microbit", "SIZE=160x120", "ERROR=54dB"])
+        plan = planning.Plan(question)
+        plan.settings = [s for s in plan.settings if s.depth == 5 and s.number in ("q16", "q24", "q32")]
+        plan.per_ray = {s: {"q16": 0.48, "q24": 0.65, "q32": 1}[s.number] for s in plan.settings}
+        plan.pixels.draw(plan.settings, 10 ** 6)
+        chosen = next(s for s in plan.frontier() if plan.pixels.decibels(s) >= 54)
+        self.assertEqual(chosen[:2], ("q16", "16"))
+        for count in 32, 64, 128, 256:
+            plan.pixels.draw(plan.settings, count)
+            self.assertIn(chosen, plan.promising(), count)
 
 
 if __name__ == "__main__":

@@ -11,11 +11,12 @@ import concurrent.futures
 import math
 import os
 import re
-import statistics
 import subprocess
 import sys
 import tempfile
 import time
+
+import numpy
 
 sys.dont_write_bytecode = True
 import cycles  # noqa: E402
@@ -32,6 +33,8 @@ BUILDING = 48  # seconds after which no firmware is begun
 FIRST_PIXELS, WANTED_PIXELS = 1000, 24000  # to begin with, and at least where there is time
 CERTAIN = 0.1  # dB of standard error that is enough
 CERTAIN_RAYS = 0.01  # and of rays, as a share
+DOUBT = 3  # standard errors within which dB may be otherwise;
+UNSEEN = 32  # and one pixel more than was drawn may be off by so many levels
 LOOKING = 6  # seconds for a whole picture to compare others with
 INSTRUCTIONS = 2e8  # of a firmware run, about
 GUESS = 2e4  # instructions a ray, before one is known
@@ -98,7 +101,7 @@ class Pixels:
         key = runs.hash_of(runs.tree_hash("include", "src/scene", *own), runs.text_of("build/obj/flags"),
                            runs.scene_text(question.scene), question.size)
         self.path = f"{FOLDER}/{key}.pixels.json"
-        self.question = question
+        self.question, self.seen = question, {}
         self.head, known = runs.kept(self.path) or (None, [])
         self.known = {Setting(*s): of for s, of in known}
         if self.head is None:
@@ -127,15 +130,37 @@ class Pixels:
 
     def rays(self, setting):
         """Of the whole picture."""
+        if setting in self.seen:
+            return self.seen[setting]["rays"]
         of = self.known[setting][:self.count]
         return sum(rays for rays, *_ in of) / len(of) / self.head["length"] * self.head["width"] * self.head["height"]
 
-    def decibels(self, setting):
-        of = self.known[setting][:self.count]
-        return pictures.decibels(sum(squares for _, squares, _ in of) / len(of) / self.head["length"] / 3)
+    def squares(self, setting):
+        """The mean square of each comb, in levels."""
+        return numpy.array([of[1] for of in self.known[setting][:self.count]]) / self.head["length"] / 3
+
+    def margin(self, squares):
+        """By how much the mean of what so many pixels say may be off; the whole picture leaves no doubt."""
+        n, whole = len(squares), self.head["combs"]
+        if n == whole:
+            return 0
+        deviations = DOUBT * squares.std(ddof=1) / math.sqrt(n)
+        return math.sqrt(1 - n / whole) * (deviations + UNSEEN ** 2 / (n * self.head["length"]))
+
+    def decibels(self, setting, doubt=0):
+        """As measured, or as they are at least (doubt=1) or at most (doubt=-1)."""
+        of = self.squares(setting)
+        mean = of.mean() + (doubt and doubt * self.margin(of))
+        return pictures.decibels(max(0, mean))
+
+    def gain(self, setting, over):
+        """Decibels at most. Of the same pixels, what both have wrong leaves no doubt."""
+        own, other = self.squares(setting), self.squares(over)
+        return pictures.decibels(own.mean()) - pictures.decibels(other.mean() + self.margin(own - other))
 
     def look(self, settings):
-        """Draws whole pictures for what an eye sees, {setting: {flip, seen}}; nothing where that takes too long."""
+        """Draws whole pictures, for their rays and for what an eye sees: {setting: {rays, flip, seen}}, without the last
+        two where that takes too long."""
         kept = self.path.replace(".pixels.", ".seen.")
         self.seen = {Setting(*s): of for s, of in runs.kept(kept) or []}
         todo = [s for s in settings if s not in self.seen]
@@ -145,19 +170,19 @@ class Pixels:
         with tempfile.TemporaryDirectory() as folder:
             paths = {s: f"{folder}/{i}.ppm" for i, s in enumerate([*todo, BETTER])}
             said = [pictures.draw(scene, size, s, to=paths[s]) for s in todo]
+            self.seen.update((s, {"rays": of["rays"]}) for s, of in zip(todo, said))
             rays = max(s["rays"] / s["camera_rays"] for s in said) * int(BETTER.samples)
-            if rays * self.head["width"] * self.head["height"] / min(s["rays/second"] for s in said) > LOOKING:
-                return
-            pictures.draw(scene, size, BETTER, to=paths[BETTER])
-            self.seen.update(zip(todo, pictures.flip(paths[BETTER], *(paths[s] for s in todo))))
+            if rays * self.head["width"] * self.head["height"] / min(s["rays/second"] for s in said) <= LOOKING:
+                pictures.draw(scene, size, BETTER, to=paths[BETTER])
+                for s, of in zip(todo, pictures.flip(paths[BETTER], *(paths[s] for s in todo))):
+                    self.seen[s].update(of)
         runs.keep(kept, list(self.seen.items()))
 
     def is_certain(self, setting):
         """Are rays and dB known as well as is wanted?"""
-        def doubt(values):
-            mean = statistics.mean(values)
-            return mean and statistics.pstdev(values) / math.sqrt(len(values)) / mean
-        rays, squares, _ = map(doubt, zip(*self.known[setting][:self.count]))
+        of = numpy.array(self.known[setting][:self.count], float)
+        mean = of.mean(0)
+        rays, squares, _ = of.std(0) / math.sqrt(len(of)) / numpy.where(mean > 0, mean, 1)
         return rays < CERTAIN_RAYS and squares * 10 / math.log(10) < CERTAIN
 
 
@@ -178,8 +203,12 @@ class Plan:
         pairs = [(s, s._replace(number="double")) for s in self.settings
                  if s.number == "float" and s.samples in "14" and s.depth == 5]
         self.count = math.ceil(FIRST_PIXELS / self.pixels.head["length"])
-        self.pixels.draw([s for pair in pairs for s in pair], self.count)
-        if all(self.pixels.decibels(double) < self.pixels.decibels(single) + LEAST_GAIN for single, double in pairs):
+        count = self.count
+        while pairs and "double" not in self.refused and count <= 8 * self.count:
+            self.pixels.draw([s for pair in pairs for s in pair], count)
+            if any(self.pixels.gain(double, single) >= LEAST_GAIN for single, double in pairs):
+                count *= 2
+                continue
             self.refused["double"] = "it is not more accurate than float"
             self.settings = [s for s in self.settings if s.number != "double"]
         self.size = "{width}x{height}".format(**self.pixels.head)
@@ -229,16 +258,29 @@ class Plan:
         """Instructions, or cycles where they are known."""
         return self.instructions(setting) * self.cycles.get(setting.number, 1)
 
-    def frontier(self, slack=1):
-        """Settings that no other is as accurate as and cheaper than; by `slack`, surely so. The cheapest first."""
-        able = [s for s in self.settings if s.number not in self.refused and "refused" not in self.built.get(s, {})]
-        found = {s: (self.cost(s), self.pixels.decibels(s)) for s in able}
-        out, gain, asked = [], LEAST_GAIN if slack == 1 else 0, self.question.decibels or 0
-        for s in sorted(able, key=lambda s: (found[s][0], -found[s][1])):
-            best = max((found[o][1] for o in out if found[o][0] <= slack * found[s][0]), default=-1)
-            if found[s][1] > best + gain or found[s][1] >= asked > best:
+    def able(self):
+        return [s for s in self.settings if s.number not in self.refused and "refused" not in self.built.get(s, {})]
+
+    def frontier(self):
+        """Settings that no other is as accurate as and cheaper than. The cheapest first."""
+        found = {s: (self.cost(s), self.pixels.decibels(s)) for s in self.able()}
+        out, best, asked = [], -1, self.question.decibels or 0
+        for s in sorted(found, key=lambda s: (found[s][0], -found[s][1])):
+            if found[s][1] > best + LEAST_GAIN or found[s][1] >= asked > best:
                 out.append(s)
+                best = max(best, found[s][1])
         return out
+
+    def promising(self):
+        """Those that may be of the frontier, as far as so few pixels and costs of other settings tell."""
+        cost, asked = {s: self.cost(s) for s in self.able()}, self.question.decibels or 0
+        least = {s: self.pixels.decibels(s, 1) for s in cost}
+
+        def may_be(setting):
+            cheaper = [o for o in cost if cost[o] <= SURE * cost[setting]]
+            return (max((least[o] for o in cheaper), default=-1) < asked <= self.pixels.decibels(setting, -1)
+                    or all(self.pixels.gain(setting, o) >= LEAST_GAIN for o in cheaper))
+        return [s for s in cost if may_be(s)]
 
     def measure(self):
         comb = self.pixels.head["length"]
@@ -259,7 +301,7 @@ class Plan:
             if s not in self.per_ray:
                 self.refused.setdefault(s.number, "there was no time to build it")
         if self.question.mhz and self.question.board in cycles.TIMINGS:
-            calls = {s.number for s in self.frontier(SURE)}
+            calls = {s.number for s in self.promising()}
             todo = [(s, self.run(s, size="8x6", profile=True)) for s in first if s.number in calls]
             for s, run in self.perform(todo):
                 if "refused" not in run.result:
@@ -268,7 +310,7 @@ class Plan:
             self.cycles = {n: self.cycles.get(n, max(self.cycles.values(), default=1)) for n, *_ in first}
         begin, last = time.monotonic(), 0
         while self.pixels.count < self.pixels.head["combs"] and time.monotonic() + 2 * last - begin < DRAWING:
-            self.settings = self.frontier(SURE)
+            self.settings = self.promising()
             if count * comb >= WANTED_PIXELS and all(self.pixels.is_certain(s) for s in self.settings):
                 break
             count *= 2
@@ -276,7 +318,7 @@ class Plan:
             last = time.monotonic()
             self.pixels.draw(self.settings, count)
             last = time.monotonic() - last
-        self.pixels.look(self.frontier(SURE))
+        self.pixels.look(self.promising())
         while True:
             todo = self.by_interest([s for s in self.frontier() if not self.is_measured(s)])
             if not todo or time.monotonic() - start > BUILDING:
@@ -324,9 +366,11 @@ def table(plan, frontier, chosen):
     if not frontier:
         return
     print(f"dB: against `build/qray {q.scene} {' '.join(pictures.words(BETTER))} -s {plan.size}`, by "
-          f"{plan.pixels.count * head['length']} of {head['width'] * head['height']} pixels; 99 is no difference")
+          f"{plan.pixels.count * head['length']} of {head['width'] * head['height']} pixels, surely to "
+          f"{max(abs(plan.pixels.decibels(s, d) - plan.pixels.decibels(s)) for s in frontier for d in (-1, 1)):.1f}; "
+          "99 is no difference")
     print("FLIP and seen: against the whole of it, the mean and the share of pixels where an eye sees a difference"
-          + ("" if plan.pixels.seen else "; it would take too long to draw"))
+          + ("" if any("flip" in of for of in plan.pixels.seen.values()) else "; it would take too long to draw"))
     if q.mhz:
         known = ", ".join(f"{n} {c:.2f}" for n, c in plan.cycles.items() if n in [s.number for s in frontier])
         known = known and f"by the core's timings ({known}), "
@@ -341,7 +385,7 @@ def table(plan, frontier, chosen):
         sizes = [f"{built[k]}" for k in ("flash", "ram", "stack_bound")] if built else ["~"] * 3
         seconds = f"{plan.seconds(s):.3g}" if q.mhz else ""
         samples, seen = s.samples.replace("a", "adaptive "), plan.pixels.seen.get(s)
-        eye = [f"{seen['flip']:.4f}", f"{seen['seen']:.1%}"] if seen else ["-"] * 2
+        eye = [f"{seen['flip']:.4f}", f"{seen['seen']:.1%}"] if seen and "flip" in seen else ["-"] * 2
         print(f"{'*' if s == chosen else ' '} {s.number:7}{samples:>18}{s.depth:>6}{'' if built else '~':>2}"
               f"{plan.instructions(s):14.0f}{seconds:>10}{plan.pixels.decibels(s):7.1f}"
               f"{eye[0]:>7}{eye[1]:>7}{sizes[0]:>8}{sizes[1]:>7}{sizes[2]:>7}")
