@@ -147,7 +147,7 @@ class Doubt(unittest.TestCase):
     cheap, dear = (planning.Setting(n, "1", 5, "0") for n in ("q16", "q32"))
 
     def test_the_margin(self):
-        # Of 0, 0, 0, 4 the standard error is 1; a pixel of 4 * 2 may be off by 32 levels; a quarter of the whole is drawn.
+        # Of 0, 0, 0, 4 the standard error is 1; a pixel of 4 * 2 may be off by 32 levels; a quarter of all is drawn.
         few = self.plan(16, {self.cheap: [0, 0, 0, 4]}, length=2).pixels
         margin = math.sqrt(3 / 4) * (3 * 1 + 32 ** 2 / 8)
         self.assertAlmostEqual(few.margin(few.squares(self.cheap)), margin)

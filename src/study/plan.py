@@ -159,8 +159,8 @@ class Pixels:
         return pictures.decibels(own.mean()) - pictures.decibels(other.mean() + self.margin(own - other))
 
     def look(self, settings):
-        """Draws whole pictures, for their rays and for what an eye sees: {setting: {rays, flip, seen}}, without the last
-        two where that takes too long."""
+        """Draws whole pictures, for their rays and for what an eye sees: {setting: {rays, flip, seen}}, without the
+        last two where that takes too long."""
         kept = self.path.replace(".pixels.", ".seen.")
         self.seen = {Setting(*s): of for s, of in runs.kept(kept) or []}
         todo = [s for s in settings if s not in self.seen]
