@@ -177,7 +177,8 @@ disc 0.2 0 2 0 0 1 0.1
         background = VIEW + "b 0 0.5 1\n"
         self.assertEqual(explain(background, "-", "3,4").split("\n")[:2],
                          ["-, 9x9, pixel 3,4", "q32, 1 sample, depth 5, cutoff 0.0014: colour 0 128 255"])
-        out = explain(background, "-n", "q16,double", "-s", "6x5", "-a", "1,0.5", "-d", "2", "--cutoff", "0.1", "-", "0,4")
+        out = explain(background, "-n", "q16,double", "-s", "6x5", "-a", "1,0.5", "-d", "2", "--cutoff", "0.1", "-",
+                      "0,4")
         self.assertEqual(out.split("\n")[:3],
                          ["-, 6x5, pixel 0,4",
                           "q16, adaptive in 1 level from 0.5, depth 2, cutoff 0.1: colour 0 128 255",
