@@ -476,7 +476,7 @@ function show_frontier() {
     if (document.activeElement !== $('clock'))
         $('clock').value = clock();
     $('source').textContent = 'Instructions: the rays of this picture times '
-        + (c.own ? `the instructions a ray that the study measured for scenes/${shown.scene}.nff.`
+        + (c.own ? `the instructions a ray that the study measured for scenes/${shown.scene}.nff with one sample.`
                  : 'the study\'s instructions a ray, of which this scene has none of its own: the mean of '
                    + `${scenes.join(', ')}, which lie from ${spaced(c.low)} to ${spaced(c.high)} in q32. `
                    + 'Take it as a first guess; make plan measures.')
