@@ -50,7 +50,7 @@ define IN_LANES
 	@$(CXX) -r -nostdlib -Wl,--force-group-allocation $(@:.o=.whole) -o $@
 	@objcopy --wildcard --keep-global-symbol='*_lanes_renderer*' $@
 endef
-$(LANED): USED = $(FLAGS) $(PROGRAM)
+$(LANED): USED = $(FLAGS) $(PROGRAM) -O3
 $(LANED): build/obj/%.o: %.cpp build/obj/flags; $(IN_LANES)
 $(LANED:build/%=build/sanitized/%): USED = $(SANITIZE) -Og
 $(LANED:build/%=build/sanitized/%): build/sanitized/obj/%.o: %.cpp build/obj/flags; $(IN_LANES)

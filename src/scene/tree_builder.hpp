@@ -65,6 +65,13 @@ void set_ball(BallNode& balls, uint32_t i, const SplitBox* box)
     balls.square[i] = box != nullptr ? static_cast<float>(reach * reach) : -HUGE_VALF;
 }
 
+// Has a shape of this kind an outline in the tree?
+template <class N>
+constexpr bool in_outlines(ShapeId id)
+{
+    return has_outlines<N> && (id.kind() == Kind::polygon || id.kind() == Kind::patch);
+}
+
 template <class N>
 class OutlineBuilder {
 public:
@@ -226,7 +233,16 @@ void build_tree(Storage<N>& s)
         outlines.add(0, count);
         return;
     }
-    const SplitBox* const split = s.split_nodes.data;
+    const SplitBox *const split = s.split_nodes.data, *const shapes = s.split_shapes.data;
+    // A part of a node: of the binary tree, or leaf_link(shape, 1).
+    const auto box = [=](uint32_t part) -> const SplitBox& {
+        return (part & leaf_bit) != 0 ? shapes[part ^ leaf_bit] : split[part];
+    };
+    // Pairs do, but for those with their outlines in one block.
+    const auto comes_apart = [shapes](const SplitBox& part) {
+        const auto in_block = [shapes](uint32_t i) { return in_outlines<N>({shapes[i].first}); };
+        return part.count == 0 || (part.count == 2 && !(in_block(part.first) && in_block(part.first + 1)));
+    };
     split_shapes(s);
     // A node's first link is, until it is made, the part of the binary tree that it stands for.
     s.nodes.push().links[0] = 0;
@@ -238,24 +254,27 @@ void build_tree(Storage<N>& s)
             float most = -1;
             uint32_t largest = 0;
             for (uint32_t i = 0; i < filled; i++)
-                if (const SplitBox& part = split[parts[i]]; part.count == 0 && part.half_area() > most) {
+                if (const SplitBox& part = box(parts[i]); comes_apart(part) && part.half_area() > most) {
                     most = part.half_area();
                     largest = i;
                 }
             if (most < 0)
                 break;
-            parts[filled++] = split[parts[largest]].first + 1;
-            parts[largest] = split[parts[largest]].first;
+            const SplitBox& part = box(parts[largest]);
+            const uint32_t child = part.count == 0 ? part.first : leaf_link(part.first, 1);
+            parts[largest] = child;
+            parts[filled++] = child + 1;
         }
         for (uint32_t i = 0; i < bound_lanes; i++) {
-            const SplitBox* const part = i < filled ? &split[parts[i]] : nullptr;
+            const SplitBox* const part = i < filled ? &box(parts[i]) : nullptr;
             set_box(node, i, part);
             if (part != nullptr && part->count == 0) {
                 node.links[i] = s.nodes.count;
                 s.nodes.push().links[0] = parts[i];
             } else if (part != nullptr) {
-                node.links[i] = leaf_link(part->first, part->count);
-                outlines.add(part->first, part->count);
+                const uint32_t first = (parts[i] & leaf_bit) != 0 ? parts[i] ^ leaf_bit : part->first;
+                node.links[i] = leaf_link(first, part->count);
+                outlines.add(first, part->count);
             }
         }
     }

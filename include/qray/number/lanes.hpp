@@ -14,6 +14,13 @@
 #endif
 #endif
 
+// Of a step of a shape's test: by itself, so that it takes stack for a while only; in lanes the compiler decides.
+#if QRAY_LANES
+#define QRAY_STEP
+#else
+#define QRAY_STEP QRAY_NOINLINE
+#endif
+
 namespace qray {
 
 // Bounds: as many as fit one register.
