@@ -215,7 +215,7 @@ class Options(Cli):
         for threads in (2, 5):
             self.assertEqual(self.run_qray("r.nff", "-o", "-", "-j", threads, "-q")[1], out)
         self.write("r.nff", view(8, 6) + "radiosity 0.01 material colour 0.5 0.5 0.5 " + quad(-2, 3) + lamp)
-        self.fails(1, "r.nff: 'radiosity 0.01' needs 1880000 cells of light; "
+        self.fails(1, "r.nff:2:1: 'radiosity 0.01' needs 1880000 cells of light; "
                       "expected at most 32768 \\(limit 'cells'\\)", "r.nff")
 
     def test_warnings(self):

@@ -36,12 +36,12 @@ def qray(*arguments):
     return subprocess.run(["build/qray", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
 
-def compile_and_draw(scene, number, compiler="g++", options=()):
+def compile_and_draw(scene, number, compiler="g++", options=(), moving=()):
     """(picture of the compiled scene, of the command)"""
-    name = "-".join([os.path.basename(scene).removesuffix(".nff"), number, compiler, *options])
+    name = "-".join([os.path.basename(scene).removesuffix(".nff"), number, compiler, *options, *moving])
     name = f"{FOLDER}/{name}"
     options = ["-n", number, *options]
-    made = qray("compile", scene, *options, "-o", name + ".hpp")
+    made = qray("compile", scene, *options, *moving, "-o", name + ".hpp")
     assert made.returncode == 0 and not made.stdout, made.stderr
     with open(name + ".cpp", "w") as file:
         file.write(PROGRAM % os.path.basename(name + ".hpp"))
@@ -178,9 +178,64 @@ class Compile(unittest.TestCase):
         lit = write("lit", VIEW + "radiosity 1\nl 0 2 2\np 3 -1 0 0 1 0 0 0 1 0\np 3 -1 0 1 1 0 1 0 0 2\n")
         moved = qray("compile", lit, "--moving", "lights", "-o", f"{FOLDER}/lit.hpp")
         self.assertEqual(moved.returncode, 1)
-        self.assertRegex(moved.stderr, rb"\A[^\n]*lit.nff: light between surfaces is [^\n]*'--moving camera'[^\n]*\n\Z")
+        self.assertRegex(moved.stderr,
+                         rb"\A[^\n]*lit.nff:2:1: light between surfaces is [^\n]*'--moving camera'[^\n]*\n\Z")
         self.assertFalse(os.path.exists(f"{FOLDER}/lit.hpp"))
         self.assertEqual(qray("compile", lit, "--moving", "camera", "-o", f"{FOLDER}/lit.hpp").returncode, 0)
+
+    def said(self, text, *moving, number="q32"):
+        """What the command says of a scene, whose first line is VIEW, with what moves in it."""
+        path = write("said", VIEW + text)
+        made = qray("compile", path, "-n", number, "--moving", *moving, "-o", f"{FOLDER}/said.hpp")
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertLessEqual(made.stderr.count(b"\n"), 1)
+        return made.stderr.decode().removeprefix(path + ":")
+
+    # What a scene that moves cannot do, in one line.
+    def test_what_does_not_move_is_said(self):
+        ceiling, ball = "p 4 -3 2 -3 3 2 -3 3 2 3 -3 2 3\n", "s 0 0 0 1\n"
+        for number in NUMBERS:
+            self.assertEqual(self.said("l 1 1 4\n" + ceiling + ball, "all", number=number), "")
+            at = "5.0002" if number == "q16" else "5"
+            eye = self.said(f"l 1 1 4\n{ball}p 3 -1 -1 {at} 1 -1 {at} 0 2 {at}\n", "camera", number=number)
+            self.assertRegex(eye, r"\A4: warning: the eye, [^ ]* off a polygon, does not know of it .* expected ")
+        lamp = "l 0 2 0\n"
+        for moving in ("lights", "polygons", "all", "spheres,polygons"):
+            self.assertRegex(self.said(lamp + ceiling + ball, moving),
+                             r"\A2: warning: a light on a polygon, .* of which one moves: .* expected a light ")
+        for moving in ("camera", "spheres", "mattes"):
+            self.assertEqual(self.said(lamp + ceiling + ball, moving), "")
+        panel = "panel 4 0 2 0 1 0 0 0 0 1 1 1 1\n"
+        self.assertRegex(self.said(panel + ceiling, "panels"), r"\A2: warning: a light on a polygon")
+        self.assertEqual(self.said(panel + ceiling + ball, "spheres"), "")
+        self.assertEqual(self.said("l 1e4 0 0\n" + ball, "spheres"), "")
+        self.assertEqual(self.said("l 1e4 0 0\n" + ball, "lights"),
+                         "2: warning: a lamp far outside of the scene: place() moves it, move() does not\n")
+        self.assertEqual(self.said(ball, "spheres,cones"), " warning: there are no cones to be moved\n")
+        self.assertEqual(self.said(ball, "cones,suns"),
+                         " warning: there are no cones to be moved; 2 such things in all\n")
+
+    # Every table that can be named stands in the help, and nothing else.
+    def test_what_can_be_named(self):
+        text = qray("compile", "-h").stdout.decode()
+        names = re.sub(r" \([^)]*\)", "", re.search(r"or all, of\s+(.*)", text)[1]).split(", ")
+        ball = write("ball", VIEW + "s 0 0 0 1\n")
+        for name in [*names, "camera", "all"]:
+            self.assertEqual(qray("compile", ball, "--moving", name, "-q", "-o", "-").returncode, 0, name)
+        for name in ("triangles", "smooth_triangles", "entries", "vertices", "mirrors", "textures", "planes", "", ","):
+            made = qray("compile", ball, "--moving", name, "-o", "-")
+            self.assertEqual((made.returncode, made.stderr.count(b"\n")), (2, 1), name)
+            self.assertIn(", ".join(names[:1]), made.stderr.decode())
+        self.assertEqual(len(names), 9)
+
+    # A lamp on a surface, where neither moves, shines as where nothing does.
+    def test_a_lamp_on_what_stands_still(self):
+        room = write("ceiling", VIEW + "l 0.1 1.65 0.3\nf 1 1 1 1 0 0 0 1\n"
+                     "p 4 -3 2.27 -3 3 1.07 -3 3 1.07 3 -3 2.27 3\nplane 0 -1 0 0 1 0\ns 0 0 0 0.7\n")
+        within = ("--within", "-3,-3,-3,3,3,6")
+        for number in NUMBERS:
+            drawn, expected = compile_and_draw(room, number, "g++", within, ("--moving", "spheres"))
+            self.assertEqual(drawn, expected, number)
 
     def test_the_header_is_whole_or_as_it_was(self):
         good = write("good", VIEW + "s 0 0 0 1\n")

@@ -24,17 +24,32 @@ const char* file_part(const char* path)
     return slash != nullptr ? slash + 1 : path;
 }
 
-void warn(const char* name, const scene::Warning& w)
+// "name:line:column:", of what there is of it.
+void say_place(const char* name, scene::Position at)
+{
+    fprintf(stderr, "%s:", scene::ShownName(name).text);
+    if (at.line != 0)
+        fprintf(stderr, "%u:", at.line);
+    if (at.column != 0)
+        fprintf(stderr, "%u:", at.column);
+}
+
+int refused(const char* name, const scene::Error& error)
+{
+    say_place(name, error.at);
+    fprintf(stderr, " %s\n", error.text);
+    return 1;
+}
+
+void warn(const char* name, const scene::Warning& w, const char* what = "objects")
 {
     if (w.count == 0)
         return;
     const bool number = w.column != 0; // else an object
-    fprintf(stderr, "%s:%u:", scene::ShownName(name).text, w.line);
-    if (number)
-        fprintf(stderr, "%u:", w.column);
+    say_place(name, {w.line, w.column});
     fprintf(stderr, " warning: %s", w.text);
     if (w.count > 1)
-        fprintf(stderr, number ? " (and so for %u more)" : "; %u objects in all", w.count - number);
+        fprintf(stderr, number ? " (and so for %u more)" : "; %u %s in all", w.count - number, what);
     fputc('\n', stderr);
 }
 
@@ -61,10 +76,8 @@ const char* output_name(const Options& options, const char* end)
 int build(const Options& options, const Renderer& renderer, Built& built, bool again = false)
 {
     scene::Error error;
-    if (!renderer.build(description, options.settings, built, error)) {
-        fprintf(stderr, "%s: %s\n", scene::ShownName(options.scene).text, error.text);
-        return 1;
-    }
+    if (!renderer.build(description, options.settings, built, error))
+        return refused(options.scene, error);
     if (options.quiet)
         return go_on;
     if (!again)
@@ -72,6 +85,7 @@ int build(const Options& options, const Renderer& renderer, Built& built, bool a
              {&description.passed_over, &description.clamped, &description.empty, &description.nonplanar})
             warn(options.scene, *w);
     warn(options.scene, built.lost);
+    warn(options.scene, built.unmoved, "such things");
     return go_on;
 }
 
@@ -91,11 +105,7 @@ int load(const Options& options, const Renderer& renderer, const char* out, Buil
     const double start = now();
     const bool solved = solve_radiosity(description, solving, error);
     solving_seconds = now() - start;
-    if (!solved) {
-        fprintf(stderr, "%s: %s\n", scene::ShownName(options.scene).text, error.text);
-        return 1;
-    }
-    return build(options, renderer, built);
+    return solved ? build(options, renderer, built) : refused(options.scene, error);
 }
 
 // What makes other formats of a PPM, by the ends of their names.

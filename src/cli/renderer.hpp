@@ -21,6 +21,7 @@ struct Built {
     Effects effects;
     uint32_t vanished; // objects smaller than the number system's resolution
     scene::Warning lost; // what the number system cannot draw right
+    scene::Warning unmoved; // and what cannot move
     const char* kernel;
 };
 
@@ -110,7 +111,8 @@ bool build_scene(const scene::Description& description, const scene::Settings& s
     }
     if (!scene::Builder<N>(description, settings, storage).build(error))
         return false;
-    built = {storage.camera.width, storage.camera.height, storage.effects, storage.vanished, storage.lost, nullptr};
+    built = {storage.camera.width, storage.camera.height, storage.effects, storage.vanished,
+             storage.lost,         storage.unmoved,       nullptr};
     return true;
 }
 

@@ -36,6 +36,7 @@ public:
         }
         s.vanished = 0;
         s.lost = {};
+        s.unmoved = {};
         textures.images();
         fit();
         if (!fine_enough(error) || !frame_of_part(error))
@@ -217,6 +218,8 @@ private:
         const double step = f.scale * 64;
         f.origin = {round(f.centre.x * step) / step, round(f.centre.y * step) / step, round(f.centre.z * step) / step};
         f.eye = settings.moving == 0 ? resolution.eye() : d.view.from;
+        if (settings.moving != 0)
+            resolution.moving_eye(s.unmoved);
         f.pushed = scene::length(f.eye - d.view.from);
         // At most half an ulp from there, so that the eye, where all rays start, is not rounded.
         if (WideFixed<N> && settings.stands()) {
@@ -237,6 +240,7 @@ private:
         if (settings.moving == 0)
             return true;
         if (moves_tables(settings.moving) && d.grid_count != 0) {
+            error.at = d.radiosity_at;
             snprintf(error.text, sizeof error.text,
                      "light between surfaces is that of a scene that stands still; expected "
                      "'--moving camera' alone, or no 'radiosity'");
@@ -337,6 +341,17 @@ private:
             s.eye_surface = {make_tag(static_cast<uint32_t>(at), fill), Convert<N>::direction(outward)};
     }
 
+    // Of what was named.
+    void nothing_to_move()
+    {
+#define QRAY_NONE(Type, name, table) \
+    if ((settings.moving & bit_of(TableId::table)) != 0 && s.table.count == 0) \
+        s.unmoved.note({0, 0}, "there are no " #table " to be moved");
+        QRAY_SHAPES(QRAY_NONE)
+        QRAY_LIGHTS(QRAY_NONE)
+#undef QRAY_NONE
+    }
+
     void effects()
     {
         Effects e;
@@ -367,6 +382,8 @@ private:
         e.light_surface = e.shadow && s.light_surfaces.count != 0;
         e.eye_surface = !(s.eye_surface.tag == Tag{Tag::none});
         e.light_map = s.lights_of.count != 0;
+        if (!moves_all(settings.moving))
+            nothing_to_move();
         e.tree = true;
         e.grid = settings.levels == 0 && settings.grid > 1;
         e.adaptive = settings.levels != 0;

@@ -129,9 +129,10 @@ struct LightGrid {
     uint32_t lights() const { return x.count * y.count + 4 * parts; }
 };
 
-// One line for people: file:line:column: text.
+// One line for people: file:line:column: text. What is wrong with a whole scene may have a place of its own.
 struct Error {
     char text[512] = {};
+    Position at{0, 0};
 };
 
 // An object by what it is sorted by.
@@ -165,6 +166,7 @@ struct Description {
     ImageSource images[Limits::images + 1]; // the last while it is read
     Bytes image_bytes; // in a room of its own
     double radiosity = 0; // the longest edge of a cell; 0: none
+    Position radiosity_at{};
     Room light_room; // the caller's, for what solve_radiosity() finds:
     LightGrid* grids = nullptr; // two a surface that takes part: outside, inside
     uint16_t* nodes = nullptr;

@@ -58,8 +58,10 @@ public:
             }
             if constexpr (is_float) // what is not 0 from there to a surface has a square that float holds
                 at = {off_zero(at.x), off_zero(at.y), off_zero(at.z)};
-            if (shift == 0 && !moves_tables(settings.moving))
-                resolution.light_surfaces(l.at, keep_light_surface(s.lights.count));
+            if (shift == 0)
+                resolution.light_surfaces(l.at, keep_light_surface(l, TableId::lights, s.lights.count));
+            else if (moves(TableId::lights))
+                s.unmoved.note({l.line, 0}, "a lamp far outside of the scene: place() moves it, move() does not");
             s.lights.push() = {Convert<N>::point(at), shift, s.colour(l.colour)};
         }
         if (s.light_surfaces.count <= most_light_surfaces())
@@ -79,12 +81,18 @@ private:
     const Resolution<N>& resolution;
 
     uint32_t most_light_surfaces() const { return d.light_count * Limits::light_surfaces; }
-    // Counts one more than there may be, too. `light` is as LightSurface has it.
-    auto keep_light_surface(uint32_t light)
+    bool moves(TableId table) const { return (settings.moving & bit_of(table)) != 0; }
+    // Counts one more than there may be, too. `light` is as LightSurface has it. Of what moves nothing is kept.
+    auto keep_light_surface(const LightSource& l, TableId table, uint32_t light)
     {
-        return [this, light](uint32_t place, uint32_t fill, const Vec3d& outward, int32_t side) {
-            if (s.light_surfaces.count < most_light_surfaces())
-                s.light_surfaces.push() = {light, make_tag(place, fill), Convert<N>::direction(outward), side};
+        return [this, &l, table, light](const Object& o, uint32_t place, const Vec3d& outward, int32_t side) {
+            if (moves(table) || (settings.moving & bit_of(o.kind)) != 0)
+                s.unmoved.note({l.line, 0},
+                               "a light on a %s, or within rounding of it, of which one moves: rounding decides which "
+                               "side is lit; expected a light %.3g off",
+                               name_of(o), Steps<N>::off * resolution.step());
+            else if (s.light_surfaces.count < most_light_surfaces())
+                s.light_surfaces.push() = {light, make_tag(place, o.fill), Convert<N>::direction(outward), side};
             else
                 s.light_surfaces.count = most_light_surfaces() + 1;
         };
@@ -107,8 +115,10 @@ private:
             s.suns.push() = {Convert<N>::direction(unit(at)), s.colour(l.colour)};
             return true;
         }
-        if (shift == 0 && !moves_tables(settings.moving))
-            resolution.panel_surfaces(l, keep_light_surface(~number));
+        if (shift == 0)
+            resolution.panel_surfaces(l, keep_light_surface(l, TableId::panels, ~number));
+        else if (moves(TableId::panels))
+            s.unmoved.note({l.line, 0}, "a panel far outside of the scene, which stands still");
         const auto fine = [shift = shift](const Vec3d& p) {
             return Convert<N>::point(p * ldexp(1, Panel<N>::fine - shift));
         };

@@ -17,8 +17,10 @@ inline constexpr std::string_view table_names[] = {QRAY_TABLES(QRAY_NAME)};
 #undef QRAY_NAME
 
 constexpr uint64_t bit_of(TableId table) { return uint64_t{1} << static_cast<int>(table); }
+constexpr uint64_t bit_of(Kind kind) { return uint64_t{1} << static_cast<int>(kind); } // shapes are the first
+static_assert(static_cast<int>(Kind::patch) == static_cast<int>(TableId::patches));
 inline constexpr uint64_t camera_moves = uint64_t{1} << 63; // in every scene that moves
-// Which surface a lamp lies on, and how surfaces light one another, is known of one place alone.
+// How surfaces light one another is known of one place alone.
 constexpr bool moves_tables(uint64_t moving) { return (moving & ~camera_moves) != 0; }
 static_assert(sizeof table_names / sizeof *table_names < 64);
 
@@ -30,6 +32,8 @@ inline constexpr uint64_t lean_tables = bit_of(TableId::triangles) | bit_of(Tabl
 inline constexpr uint64_t movable_tables =
     (shape_tables & ~lean_tables) QRAY_LIGHTS(QRAY_BIT) | bit_of(TableId::mattes);
 #undef QRAY_BIT
+
+constexpr bool moves_all(uint64_t moving) { return (moving & movable_tables) == movable_tables; }
 
 // With what follows the tables that are named.
 constexpr uint64_t with_followers(uint64_t moving)
@@ -44,6 +48,9 @@ constexpr uint64_t with_followers(uint64_t moving)
         all |= bit_of(TableId::normals);
     return all;
 }
+
+#define QRAY_MOVABLE_SAID \
+    "spheres, discs (planes too), cones (cylinders too), polygons, patches, lights, suns, panels, mattes (colours)"
 
 // "spheres,lights", "camera", "all"; false where something else is named.
 constexpr bool read_moving(std::string_view text, uint64_t& moving)

@@ -258,7 +258,11 @@ private:
     bool background() { return colour("the background", light_range, out.background); }
     bool ambient_light() { return colour("the ambient light", light_range, out.ambient); }
     bool far() { return number("'far'", size_range, out.far); }
-    bool radiosity() { return number("'radiosity'", size_range, out.radiosity); }
+    bool radiosity()
+    {
+        out.radiosity_at = entity.at;
+        return number("'radiosity'", size_range, out.radiosity);
+    }
     bool lamp()
     {
         return light([this](LightSource& l) { return point("the place of a light", l.at); });

@@ -347,6 +347,7 @@ private:
         for (uint32_t i = 0; i < surface_count; i++)
             lay_cells(surfaces[i], needed);
         if (needed > Limits::cells) {
+            error.at = d.radiosity_at;
             snprintf(error.text, sizeof error.text,
                      "'radiosity %g' needs %.0f cells of light; expected at most %u (limit 'cells')",
                      d.radiosity, needed,
@@ -715,6 +716,7 @@ private:
             if (d.light_change <= 1e-6 * most)
                 return true;
         }
+        error.at = d.radiosity_at;
         snprintf(error.text, sizeof error.text,
                  "the light of surfaces still changes by %.3g after %u rounds; a room that loses none has no picture",
                  d.light_change, most_rounds);

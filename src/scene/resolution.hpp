@@ -126,13 +126,26 @@ public:
         return found;
     }
 
-    // Calls f(place, fill, outward normal, side) for the surfaces that hold a light at p, or lie as near as rounding.
+    // Where the eye may leave it, nothing is known of a surface that it is on.
+    void moving_eye(Warning& unmoved) const
+    {
+        const double off = Steps<N>::off * step();
+        for_each_near(d.view.from, off, [&](const Near& s) {
+            unmoved.note({s.object.line, 0},
+                         "the eye, %.3g off a %s, does not know of it where something moves: rounding decides whether "
+                         "it sees it; expected an eye %.3g off",
+                         fabs(s.above.height), name_of(s.object), off);
+            return true;
+        });
+    }
+
+    // Calls f(object, place, outward normal, side) for the surfaces that hold a light at p, or lie as near as rounding.
     template <class F>
     void light_surfaces(const Vec3d& p, F f) const
     {
         for_each_near(p, fmax(Steps<N>::off * step(), 0x1p-44 * (frame.radius + largest(p))), [&](const Near& s) {
             const bool on = fabs(s.above.height) <= 16 * noise(s.object, s.above.outward, p); // it may be computed
-            f(s.place, s.object.fill, s.above.outward, on ? 0 : s.above.height > 0 ? 1 : -1);
+            f(s.object, s.place, s.above.outward, on ? 0 : s.above.height > 0 ? 1 : -1);
             return true;
         });
     }
@@ -161,7 +174,7 @@ public:
                 const Vec3d n = fan ? unit(cross(v[part + 1] - v[0], v[part + 2] - v[part + 1])) : normal(o);
                 const double height = dot(n, l.at - place(o));
                 if (fabs(height) + fabs(dot(n, l.u)) + fabs(dot(n, l.v)) <= off)
-                    f(first + part, o.fill, n, fabs(height) <= 16 * noise(o, n, l.at) ? 0 : height > 0 ? 1 : -1);
+                    f(o, first + part, n, fabs(height) <= 16 * noise(o, n, l.at) ? 0 : height > 0 ? 1 : -1);
             }
         }
     }

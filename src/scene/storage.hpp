@@ -54,6 +54,7 @@ struct Storage {
     typename N::Unit threshold;
     uint32_t vanished; // objects smaller than the number system's resolution
     Warning lost;      // these, and whatever else it cannot draw right
+    Warning unmoved;   // what cannot move as was asked, or is not known where something does
     Vec3d origin;      // of the moved scene, in the text's units, and what it was scaled by
     double scale;
     uint64_t far_lights; // a bit for each light of the text that is so far away that it is a sun

@@ -31,8 +31,8 @@ namespace detail {
 template <Effects E>
 constexpr bool one_moving_sample = E.moving && !E.grid && !E.adaptive && !E.panel;
 
-// A part of row j, from pixel x on, of a scene whose camera is in RAM: it is read once, and in fixed point a step to the
-// next pixel is a sum instead of products.
+// A part of row j, from pixel x on, of a scene whose camera is in RAM: it is read once, and in fixed point a step to
+// the next pixel is a sum instead of products.
 template <class Format, class N, Effects E, class Count>
 constexpr void render_moving(const Scene<N, E>& scene, uint32_t x, uint32_t j, uint32_t width, uint8_t* out,
                              Count& count)
