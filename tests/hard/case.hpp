@@ -91,6 +91,12 @@ inline constexpr int unit_bits<q24> = 20;
 template <>
 inline constexpr int unit_bits<Float> = 23;
 
+// What the cases are made of: steps of 2^-this, and of directions; in fixed point its own, in floating point q32's.
+template <class N>
+constexpr int grain = N::is_fixed ? fine_steps<N> : 24;
+template <class N>
+constexpr int slope = N::is_fixed ? unit_bits<N> : 30;
+
 struct Triple {
     int64_t x, y, z;
     friend constexpr Triple operator+(Triple a, Triple b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }

@@ -17,12 +17,12 @@ QRAY_CASE(CylinderIsNotMetAlongItsAxis)
             }
 }
 
-// In q16 a 256th.
+// In q16 and q24 four steps.
 QRAY_CASE(CylinderGrazedAFourmillionthInsideAndOutside)
 {
     QRAY_NAMES;
     const Cone<N> s = M::cylinder(2, 3);
-    const Length off = power_of_two<Length>(NarrowFixed<N> ? -8 : -22), one = number<Length>(1);
+    const Length off = power_of_two<Length>(2 - grain<N>), one = number<Length>(1);
     for (int64_t z : List{-2, 0, 1})
         for (int64_t sign : List{-1, 1})
             for (bool inside : List{true, false}) {
@@ -57,8 +57,8 @@ QRAY_CASE(ConeEndsAtItsApex)
 {
     QRAY_NAMES;
     const Cone<N> s = cone345<N>();
-    const Length below = power_of_two<Length>(NarrowFixed<N> ? -5 : -10);
-    const Length above = power_of_two<Length>(NarrowFixed<N> ? -5 : -16);
+    const Length below = power_of_two<Length>(ShortFixed<N> ? -5 : -10);
+    const Length above = power_of_two<Length>(ShortFixed<N> ? -5 : NarrowFixed<N> ? -11 : -16);
     for (const Triple& d : List{Triple{5, 0, 0}, Triple{0, -5, 0}, Triple{3, 4, 0}, Triple{-4, 3, 0}}) {
         Ray<N> ray = M::ray(M::point(Triple{0, 0, 4} - d), M::direction(d, 5));
         ray.origin.z = number<Length>(4) - below;

@@ -16,13 +16,14 @@ QRAY_CASE(PlaneParallelToTheRayIsMissed)
     }
 }
 
-// 64 away at a slope of 2^-30 (q16: 2^-14); from a height of 1 it is out of reach.
+// 64 away at a slope of 2^-30 (q16: 2^-14, q24: 2^-20); from a height of 1 it is out of reach.
 QRAY_CASE(PlaneAtASlopeOfABillionthIsMetWhereItShouldBe)
 {
     QRAY_NAMES;
     const Disc<N> s = M::disc({0, 0, 0}, axes[1], 100);
-    const int bits = NarrowFixed<N> ? 14 : 30;
-    const Length slack = NarrowFixed<N> ? number<Length>(5, 1024) : Length{}; // a quotient of 14 bits
+    constexpr int bits = slope<N>;
+    // A quotient of 14 bits, or one to an ulp.
+    const Length slack = ShortFixed<N> ? number<Length>(5, 1024) : NarrowFixed<N> ? ulp : Length{};
     for (int64_t side : List{-1, 1}) {
         Ray<N> ray = M::ray(M::point({-60, side, 0}), M::direction({1, 0, 0}));
         ray.direction.y = number<Unit>(-side, int64_t{1} << bits);
@@ -200,11 +201,11 @@ QRAY_CASE(RayThroughACornerOfSixTrianglesHasOneOwner)
     }
 }
 
-// 168 steps of 2^-24 are 1.0014e-5; in q16 of 2^-10.
+// 168 steps of 2^-24 are 1.0014e-5; in q16 and q24 of their own.
 QRAY_CASE(SliverOf50ByAHundredthousandthIsExact)
 {
     constexpr Flat corners[] = {{-25 * 1024, 0}, {25 * 1024, 0}, {7 * 1024, 168}};
-    const int64_t over = int64_t{1} << (NarrowFixed<N> ? 10 : 24);
+    const int64_t over = int64_t{1} << grain<N>;
     compare_with_integers<N>(check, corners, 3, 1024, over, figure_rays, {-25600, -6}, {25599, 173});
 }
 
@@ -212,7 +213,7 @@ QRAY_CASE(SliverOf50ByAHundredthousandthIsExact)
 QRAY_CASE(TriangleOfAFiveThousandthIsExact)
 {
     constexpr Flat corners[] = {{0, 0}, {3355, 17}, {1211, 2903}};
-    const int64_t over = int64_t{1} << (NarrowFixed<N> ? 10 : 24);
+    const int64_t over = int64_t{1} << grain<N>;
     compare_with_integers<N>(check, corners, 3, over, over, figure_rays, {-100, -100}, {3500, 3000});
     if constexpr (N::is_fixed) {
         const int64_t far = 30 * over;
@@ -224,7 +225,7 @@ QRAY_CASE(TriangleOfAFiveThousandthIsExact)
 
 QRAY_CASE(TriangleAsLargeAsTheWorldIsExact)
 {
-    constexpr int64_t n = NarrowFixed<N> ? 1024 : 4096;
+    constexpr int64_t n = ShortFixed<N> ? 1024 : 4096;
     constexpr Flat corners[] = {{-62 * n, -62 * n + 1}, {62 * n, -61 * n}, {5, 62 * n - 3}};
     compare_with_integers<N>(check, corners, 3, n, n, figure_rays, {-62 * n, -62 * n}, {62 * n, 62 * n});
 }
@@ -232,7 +233,7 @@ QRAY_CASE(TriangleAsLargeAsTheWorldIsExact)
 // A star between two squares on their corners.
 QRAY_CASE(ConcavePolygonOf144CornersIsExact)
 {
-    constexpr int64_t n = NarrowFixed<N> ? 1024 : 4096;
+    constexpr int64_t n = ShortFixed<N> ? 1024 : 4096;
     Flat star[144];
     for (int i = 0; i < 144; i++) {
         const int64_t reach = (i % 2 == 0 ? 40 : 17) * n, along = reach * (i % 36) / 36;
@@ -269,7 +270,7 @@ QRAY_CASE(PolygonIsNotMetByARayInItsPlane)
         }
 }
 
-// Seen at 2^-30 (q16: 2^-14) from edge on: between its nearest and its farthest corner, if at all.
+// Seen at 2^-30 (q16: 2^-14, q24: 2^-20) from edge on: between its nearest and its farthest corner, if at all.
 QRAY_CASE(PolygonAlmostEdgeOnIsMetWithinItself)
 {
     QRAY_NAMES;
@@ -277,8 +278,8 @@ QRAY_CASE(PolygonAlmostEdgeOnIsMetWithinItself)
     Figure<N> s(corners, 4, 1, 1);
     for (int64_t i = -100; i <= 100; i++) {
         Ray<N> ray = M::ray(M::point({-20, 1, 0}), M::direction({1, 0, 0}));
-        ray.origin.z = number<Length>(i, int64_t{1} << (NarrowFixed<N> ? 10 : 24));
-        ray.direction.z = number<Unit>(i < 0 ? 1 : -1, int64_t{1} << (NarrowFixed<N> ? 14 : 30));
+        ray.origin.z = number<Length>(i, int64_t{1} << grain<N>);
+        ray.direction.z = number<Unit>(i < 0 ? 1 : -1, int64_t{1} << slope<N>);
         QRAY_HOLDS(!s.hit(ray, t) || (t >= number<Length>(16) && t <= number<Length>(24)));
     }
 }

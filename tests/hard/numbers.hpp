@@ -15,17 +15,17 @@ bool bend(Direction<N> d, Direction<N> n, int64_t eta, int64_t over, Direction<N
     return refracted<N>(d, n, N::unit(dot<N>(d, n)), ratio, out);
 }
 
-// Out of 5/4, whose critical angle has a sine of 4/5: a millionth of a radian to either side; 1e-5 in float,
-// a 64th in q16, whose directions do not tell less apart.
+// Out of 5/4, whose critical angle has a sine of 4/5: a millionth of a radian to either side; 1e-5 in float
+// and q24, a 64th in q16, whose directions do not tell less apart.
 QRAY_CASE(RefractionAMillionthOffTheCriticalAngle)
 {
     QRAY_NAMES;
     constexpr int64_t over = 1000000000;
     int64_t sines[2] = {799999400, 800000600}, cosines[2] = {600000800, 599999200};
-    if (NarrowFixed<N>) {
+    if (ShortFixed<N>) {
         sines[0] = 790527720, cosines[0] = 612426250;
         sines[1] = 809276960, cosines[1] = 587427270;
-    } else if (sizeof(Unit) == 4 && !N::is_fixed) {
+    } else if (NarrowFixed<N> || (sizeof(Unit) == 4 && !N::is_fixed)) {
         sines[0] = 799994000, cosines[0] = 600008000;
         sines[1] = 800006000, cosines[1] = 599992000;
     }
@@ -56,7 +56,7 @@ QRAY_CASE(SlabLetsOutWhatCameInParallel)
     }
 }
 
-// |d|^2 stays within 2e-7 of 1; in q16 and float within some units of the last place.
+// |d|^2 stays within 2e-7 of 1; in q16, q24 and float within some units of the last place.
 QRAY_CASE(ThousandBouncesKeepTheDirectionUnit)
 {
     QRAY_NAMES;
@@ -64,7 +64,8 @@ QRAY_CASE(ThousandBouncesKeepTheDirectionUnit)
     Direction<N> d = M::direction({1, 2, 2}, 3);
     const auto one = N::one * N::one;
     const int64_t float_has = sizeof(Unit) == 4 && !N::is_fixed ? 20 : 2;
-    const Unit little = NarrowFixed<N> ? number<Unit>(3, 1 << 14) : number<Unit>(float_has, 10000000);
+    const Unit little = NarrowFixed<N> ? number<Unit>(ShortFixed<N> ? 3 : 4, 1 << slope<N>) // squares of q24 drop some
+                                       : number<Unit>(float_has, 10000000);
     const auto most = N::one * little;
     for (int i = 0; i < 1000; i++) {
         Direction<N> n = d;
@@ -87,7 +88,7 @@ QRAY_CASE(ThousandBouncesBetweenTwoBallsKeepTheDirectionUnit)
                                 M::sphere(M::point({5, 0, 0}), 2, 1, tags[1])};
     const auto one = N::one * N::one;
     const int64_t float_has = sizeof(Unit) == 4 && !N::is_fixed ? 20 : 2;
-    const Unit little = NarrowFixed<N> ? number<Unit>(5, 1 << 14) : number<Unit>(float_has, 10000000);
+    const Unit little = NarrowFixed<N> ? number<Unit>(5, 1 << slope<N>) : number<Unit>(float_has, 10000000);
     Ray<N> ray = M::ray(M::point({0, 0, 0}), M::direction({1, 0, 0}));
     ray.direction.x = ray.direction.x + number<Unit>(2, int64_t{1} << unit_bits<N>);
     for (int i = 0; i < 1000; i++) {

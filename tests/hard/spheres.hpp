@@ -29,8 +29,8 @@ QRAY_CASE(SphereTouchedByATangentOfIntegers)
 QRAY_CASE(SphereAimedAMillionthOfItsRadiusBesideItsEdge)
 {
     QRAY_NAMES;
-    // 16 2^-24 = 0.95e-6; in q16 a step.
-    const Length off = power_of_two<Length>(NarrowFixed<N> ? -10 : -20), one = number<Length>(1);
+    // 16 2^-24 = 0.95e-6; in q16 and q24 a step.
+    const Length off = power_of_two<Length>(NarrowFixed<N> ? -grain<N> : -20), one = number<Length>(1);
     for (int64_t sign : List{-1, 1})
         for (int64_t far : List{2, 10, 55}) {
             const Sphere<N> s = M::sphere(M::point({0, 0, 0}), 1);
@@ -49,14 +49,14 @@ QRAY_CASE(SphereAimedAMillionthOfItsRadiusBesideItsEdge)
         }
 }
 
-// A radius of 0.005 is 83886.08 steps of 2^-24, seen from 55 away; one of 0.05 is 51.2 of 2^-10.
+// A radius of 0.005 is 83886.08 steps of 2^-24 and 327.68 of 2^-16, seen from 55 away; one of 0.05 is 51.2 of 2^-10.
 QRAY_CASE(SphereOfAnEleventhousandthOfItsDistance)
 {
     QRAY_NAMES;
-    const Sphere<N> s = M::sphere(M::point({30, 7, -9}), NarrowFixed<N> ? 50 : 5, 1000);
-    const int64_t edge = NarrowFixed<N> ? 51 : 83886, over = int64_t{1} << (NarrowFixed<N> ? 10 : 24);
+    const Sphere<N> s = M::sphere(M::point({30, 7, -9}), ShortFixed<N> ? 50 : 5, 1000);
+    const int64_t edge = ShortFixed<N> ? 51 : NarrowFixed<N> ? 327 : 83886, over = int64_t{1} << grain<N>;
     // A float of 7 ends at 2^-21: from a centre of 0 only.
-    const Sphere<N> at_zero = M::sphere(M::point({30, 0, 0}), NarrowFixed<N> ? 50 : 5, 1000);
+    const Sphere<N> at_zero = M::sphere(M::point({30, 0, 0}), ShortFixed<N> ? 50 : 5, 1000);
     for (int64_t sign : List{-1, 1})
         for (int64_t out : List{0, 1}) {
             const Length y = number<Length>(sign * (edge + out), over);
@@ -95,7 +95,7 @@ struct Wide128 {
 };
 
 // Does the line of a ray pass within r of a centre: is r^2 |d|^2 more than |v|^2 |d|^2 - (v.d)^2, in 128 bits
-// on the numbers as stored? Not `certain` within so much of r: half a 2^-25 in q32, four steps in q16.
+// on the numbers as stored? Not `certain` within so much of r: half a 2^-25 in q32, half a step in q24, four in q16.
 template <class N>
     requires N::is_fixed
 bool passes_within(const Sphere<N>& s, const Ray<N>& ray, bool& certain)
@@ -115,7 +115,7 @@ bool passes_within(const Sphere<N>& s, const Ray<N>& ray, bool& certain)
     const bool inside = across < reach;
     const Wide128 off = inside ? reach - across : across - reach;
     const uint64_t r_fine = r << s.fine;
-    certain = Wide128::product(NarrowFixed<N> ? r_fine * 8 : r_fine / 2, d2) < off;
+    certain = Wide128::product(ShortFixed<N> ? r_fine * 8 : NarrowFixed<N> ? r_fine : r_fine / 2, d2) < off;
     return inside;
 }
 
@@ -150,7 +150,7 @@ void aim_at_the_edge(Check& check, int64_t num, int64_t den, int64_t steps)
         const Sphere<N> s = M::sphere(M::point(centre), num, den);
         Length away = number<Length>(num, den);
         const int64_t beside = random.in(-steps, steps);
-        away = away + number<Length>(beside, int64_t{1} << (NarrowFixed<N> ? 10 : N::is_fixed ? 24 : 14));
+        away = away + number<Length>(beside, int64_t{1} << (N::is_fixed ? grain<N> : 14));
         const Point<N> foot = s.centre + along<N>(away, n);
         const Ray<N> ray = M::ray(foot - along<N>(number<Length>(N::is_fixed ? 55 : 5), d), d);
         bool certain = beside > 8 || beside < -8, expected = beside < 0;
@@ -169,7 +169,7 @@ QRAY_CASE(SphereSeenFromAnywhereBesideItsEdge) { aim_at_the_edge<N>(check, 1, 1,
 // In q16 a tenth of a pixel: as small as half a hundred steps.
 QRAY_CASE(SmallSphereSeenFromAnywhereBesideItsEdge)
 {
-    aim_at_the_edge<N>(check, NarrowFixed<N> ? 50 : 5, 1000, NarrowFixed<N> ? 40 : N::is_fixed ? 6 : 24);
+    aim_at_the_edge<N>(check, ShortFixed<N> ? 50 : 5, 1000, ShortFixed<N> ? 40 : N::is_fixed ? 6 : 24);
 }
 
 QRAY_CASE(SphereSeenFromItsCentreIsItsRadiusAway)
@@ -200,10 +200,10 @@ QRAY_CASE(SphereBehindIsNotMet)
 QRAY_CASE(ConcentricSpheresAMillionthApartAreMetInOrder)
 {
     QRAY_NAMES;
-    const int64_t thin = NarrowFixed<N> ? 64 : 1 << 20;
+    const int64_t thin = 1 << (grain<N> - 4);
     const Point<N> centre = M::point({3, 4, 5});
     const Sphere<N> inner = M::sphere(centre, 1), outer = M::sphere(centre, thin + 1, thin);
-    const int64_t far = WideFixed<N> ? 50 : 2;
+    const int64_t far = N::is_fixed && !ShortFixed<N> ? 50 : 2;
     for (const Exact& e : directions)
         for (int beside = 0; beside < 4; beside++) {
             const Triple aside = axes[beside % 3] * (e.over * (beside > 0));
@@ -220,7 +220,7 @@ QRAY_CASE(ConcentricSpheresAMillionthApartAreMetInOrder)
 QRAY_CASE(ShellOfAMillionthIsCrossedFaceByFace)
 {
     QRAY_NAMES;
-    const int64_t thin = NarrowFixed<N> ? 64 : 1 << 20;
+    const int64_t thin = 1 << (grain<N> - 4);
     const Tag tag = make_tag(1, 0);
     const Sphere<N> inner = M::sphere(M::point({0, 0, 0}), 1);
     const Sphere<N> outer = M::sphere(M::point({0, 0, 0}), thin + 1, thin, tag);
@@ -239,7 +239,7 @@ QRAY_CASE(SphereLeftAlmostAlongItsTangentIsNotMetAgain)
 {
     QRAY_NAMES;
     const Tag tag = make_tag(3, 0);
-    const int64_t flat = NarrowFixed<N> ? 1 << 14 : 1 << 17;
+    const int64_t flat = ShortFixed<N> ? 1 << 14 : 1 << 17;
     for (int i = 0; i < 3; i++)
         for (int64_t sign : List{-1, 1}) {
             const Sphere<N> s = M::sphere(M::point({9, -5, 2}), 2, 1, tag);
