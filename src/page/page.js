@@ -572,7 +572,8 @@ function show_chosen(p) {
     show_run();
 }
 function show_run() {
-    $('run').textContent = run_line(shown.sides[0], sides[0].built ?? {width: 320, height: 240})
+    const [width, height] = picture_size();
+    $('run').textContent = run_line(shown.sides[0], sides[0].built ?? {width: width || 320, height: height || 240})
         + (is_changed() ? '\n# with the text saved as scene.nff' : '');
 }
 function choose_point(p) {

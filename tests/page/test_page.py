@@ -138,6 +138,19 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.script("return performance.getEntriesByType('resource').filter("
                                      "e => !/^(data|blob):/.test(e.name)).length"), 0)
 
+    def test_it_is_quick(self):
+        times = []
+        for _ in range(3): # the machine may be busy
+            self.driver.get("about:blank")
+            self.driver.get(f'file://{PAGE}#{{"scene":"showcase","size":"320x240"}}')
+            self.wait("done")
+            times.append(self.script("return [performance.getEntriesByType('navigation')[0].loadEventEnd, "
+                                     "sides[1].ms]"))
+        opening, drawing = map(min, zip(*times))
+        self.assertEqual(self.script("return shown.sides[1].number"), "q32")
+        self.assertLess(opening, 1000)
+        self.assertLess(drawing, 3000)
+
     def test_pictures_are_those_of_the_command(self):
         for name in ("showcase", "knot", "images", "room"):
             if name == "room":
