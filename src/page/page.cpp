@@ -298,7 +298,7 @@ QRAY_EXPORT(explanation) const char* explanation(uint32_t count)
         return true;
     };
     scene::Source source(append, nullptr);
-    const bool alike = explained[0].number == explained[1].number;
+    const bool alike = count == 2 && explained[0].number == explained[1].number;
     const auto of = [alike](uint32_t i) {
         const auto& e = explained[i];
         return cli::Explained{alike ? i == 0 ? "A" : "B" : e.number, e.number, e.settings, explanations[i]};

@@ -240,7 +240,7 @@ class PageTest(unittest.TestCase):
                          scene("showcase").split("\n")[line - 1])
         # Other dials part too: each tree is the command's, in order, and what only one has is marked.
         for number, dials, marks in (("double", ["-r", "4"], ("q16", "double")), ("q16", ["-r", "4"], "AB"),
-                                     ("q16", ["-d", "1"], "AB"), ("q32", ["-d", "1"], ("q16", "q32"))):
+                                     ("q32", ["-d", "1"], ("q16", "q32")), ("q16", ["-d", "1"], "AB")):
             with self.subTest(number=number, dials=dials):
                 self.script("Object.assign(shown.sides[1], drawing, arguments[0]); sides[1].draw()",
                             {"number": number, {"-r": "samples", "-d": "depth"}[dials[0]]: int(dials[1])})
@@ -262,6 +262,12 @@ class PageTest(unittest.TestCase):
                 elif self.script("return sides[1].rays < sides[0].rays"):
                     deeper = [r for r in re.findall(r"\w+ ray, .*", one) if ", depth 1," not in r]
                     self.assertEqual(re.findall(rf"! only in {marks[0]}: (\w+ ray, .*)", text), deeper)
+        # Two pictures that are drawn alike have one explanation.
+        self.script("Object.assign(shown.sides[1], drawing, {number: 'q16'}); sides[1].draw()")
+        self.wait("done")
+        self.wait(True, "document.getElementById('explain').dataset.settings === JSON.stringify(shown.sides)")
+        self.assertEqual(self.script("return document.getElementById('explain').textContent"),
+                         self.explained("-n", "q16", place))
 
     def test_a_change_ends_what_is_being_drawn(self):
         self.script("shown.sides[1].samples = 4096; sides[1].draw()")
