@@ -29,6 +29,30 @@ int main()
     return qray::render<qray::Rgb888>(scene::scene, row, 1, sink) ? 0 : 1;
 }
 """
+# Rows, and a rectangle from (5, 3) on, against pixels.
+ROWS = """#include <qray/qray.hpp>
+
+#include "rows.hpp"
+
+int main()
+{
+    using F = qray::Rgb888;
+    static uint8_t row[3 * scene::width], rect[3 * (scene::width - 5) * (scene::height - 3)];
+    render_rect<F>(scene::scene, 5, 3, scene::width - 5, scene::height - 3, rect);
+    for (uint32_t y = 0; y < scene::height; y++) {
+        qray::render_row<F>(scene::scene, y, row);
+        for (uint32_t x = 0; x < scene::width; x++) {
+            uint8_t rgb[3];
+            F::put(qray::render_pixel(scene::scene, x, y), x, y, rgb);
+            for (uint32_t i = 0; i < 3; i++)
+                if (rgb[i] != row[3 * x + i]
+                    || (x >= 5 && y >= 3 && rgb[i] != rect[3 * ((y - 3) * (scene::width - 5) + x - 5) + i]))
+                    return 1;
+        }
+    }
+    return 0;
+}
+"""
 VIEW = "v from 0 0 5 at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 16 12\n"
 
 
@@ -227,6 +251,19 @@ class Compile(unittest.TestCase):
             self.assertEqual((made.returncode, made.stderr.count(b"\n")), (2, 1), name)
             self.assertIn(", ".join(names[:1]), made.stderr.decode())
         self.assertEqual(len(names), 9)
+
+    # Where the camera is in RAM a row steps from pixel to pixel; pixels are made one by one.
+    def test_rows_of_what_moves_are_its_pixels(self):
+        text = "v from 3 2 5 at 0.1 0 0 up 0.2 1 0.1 angle 40 hither 1 resolution 31 23\nl 1 2 5\ns 0 0 0 1\n"
+        with open(f"{FOLDER}/rows.cpp", "w") as file:
+            file.write(ROWS)
+        for number in NUMBERS:
+            made = qray("compile", write("rows", text), "-n", number, "--moving", "all", "-o", f"{FOLDER}/rows.hpp")
+            self.assertEqual((made.returncode, made.stderr), (0, b""))
+            built = subprocess.run(["g++", *FLAGS, "-fsanitize=undefined", "-fno-sanitize-recover=all",
+                                    f"{FOLDER}/rows.cpp", "-o", f"{FOLDER}/rows"])
+            self.assertEqual(built.returncode, 0)
+            self.assertEqual(subprocess.run([f"{FOLDER}/rows"]).returncode, 0, number)
 
     # A lamp on a surface, where neither moves, shines as where nothing does.
     def test_a_lamp_on_what_stands_still(self):

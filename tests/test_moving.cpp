@@ -326,6 +326,17 @@ TYPED_TEST(MovingTest, TurnsAreTurns)
         ASSERT_TRUE(move(first, motion, now));
         EXPECT_EQ(now.centre == first.centre, k == 1000);
     }
+    // In place, an ulp a turn at most adds up.
+    now = first;
+    for (uint32_t k = 0; k < 1000; k++) {
+        Motion<N> motion(s.frame);
+        motion.about(place_of<N>(4, -4, 8)).turn(place_of<N>(1, 2, 3), part_of_turn(1, 1000));
+        ASSERT_TRUE(move(now, motion, now));
+    }
+    const double drift = distance(value(now.centre), value(first.centre)) / std::fmax(make<N>::length_ulp(16), 0x1p-26);
+    EXPECT_LE(drift, 1000);
+    if (const char* told = std::getenv("QRAY_TELL"); told != nullptr)
+        printf("drift in place: %.1f ulp\n", drift);
 }
 
 // A tree that was refitted tells no other shapes than none does.
