@@ -23,7 +23,7 @@ constexpr uint32_t larger = 4;
 constexpr double roll = 0.05;
 // Where a step shows something else in fewer pixels than that, it is asked with fewer bits, but not with so few that
 // shades are off by as much as what moves.
-constexpr int enough = 16, fewer_bits[] = {0, 4, 8}, least_fewer = 8;
+constexpr int enough = 64, fewer_bits[] = {0, 4, 8}, least_fewer = 8;
 
 scene::Description description;
 cli::Options options;

@@ -11,6 +11,18 @@
 #include "../scene/builder.hpp"
 #include "widths.hpp"
 
+namespace qray {
+
+namespace study {
+struct Stepped;
+}
+template <>
+struct Rounded<study::Stepped> {
+    double x, y, z;
+};
+
+} // namespace qray
+
 namespace qray::study {
 
 // All that one step finds on its way is rounded like its result.
@@ -115,32 +127,6 @@ struct Stepped : Double {
 
 static_assert(NumberSystem<Stepped> && NumberSystem<Within<Step::normal>>);
 
-// Functions that are found by what they are asked of.
-inline bool towards(const Light<Stepped>& lamp, const Point<Stepped>& q, Direction<Stepped>& l, double& distance)
-{
-    const bool is = qray::towards<Stepped>(lamp, q, l, distance);
-    l = keep<Step::light>(l);
-    return is;
-}
-inline bool towards(const Sun<Stepped>& sun, const Point<Stepped>&, Direction<Stepped>& l, double& distance)
-{
-    l = keep<Step::light>(sun.from);
-    distance = Stepped::length_max;
-    return true;
-}
-template <Effects E>
-Rgb<Stepped> light_of_surfaces(const Scene<Stepped, E>& scene, Tag tag, bool inside, const Point<Stepped>& q)
-{
-    return keep<Step::map>(qray::light_of_surfaces<Stepped, E>(scene, tag, inside, q));
-}
-// As in fixed point, where the rounding of v.d does not reach the normal.
-inline void surface_of(const Sphere<Stepped>& s, const Corners<Stepped>& corners, const Ray<Stepped>& ray, double t,
-                       Local<Stepped> local, Point<Stepped>& point, Direction<Stepped>& n)
-{
-    local.offset -= dot<Stepped>(local.near, ray.direction);
-    qray::surface_of<Stepped>(s, corners, ray, t, local, point, n);
-}
-
 } // namespace qray::study
 
 namespace qray {
@@ -152,6 +138,18 @@ struct RejectRay<study::Stepped> {
     static bool misses_ball(const Point<study::Stepped>&, double) { return false; }
     static bool misses_plane(const Point<study::Stepped>&, const Direction<study::Stepped>&) { return false; }
 };
+
+// As in q32, where it is asked for.
+template <>
+inline constexpr Vec<double> from_exact<study::Stepped>(const Vec<double>& p, const Rounded<study::Stepped>& rounded)
+{
+    return p + Vec<double>{rounded.x, rounded.y, rounded.z};
+}
+template <>
+inline constexpr Vec<double> from_rounded<study::Stepped>(const Vec<double>& p, const Rounded<study::Stepped>& rounded)
+{
+    return p - Vec<double>{rounded.x, rounded.y, rounded.z};
+}
 
 // What a colour is multiplied by.
 template <>
@@ -271,6 +269,13 @@ inline double Convert<study::Stepped>::length(double v)
     return study::keep<study::Step::coordinate>(v);
 }
 template <>
+inline Rounded<study::Stepped> Convert<study::Stepped>::rounded(const Vec3d& p, int fine)
+{
+    const auto rest = [fine](double v) { return length(ldexp(length(v) - v, fine)); };
+    return study::widths.keeps_rest ? Rounded<study::Stepped>{rest(p.x), rest(p.y), rest(p.z)}
+                                    : Rounded<study::Stepped>{};
+}
+template <>
 inline Vec<double> Convert<study::Stepped>::direction(const Vec3d& d)
 {
     return study::keep<study::Step::normal>(Vec<double>{d.x, d.y, d.z});
@@ -320,6 +325,32 @@ inline int Builder<study::Stepped>::fine_for(double size, Blocks::Of Blocks::*of
 } // namespace qray
 
 namespace qray::study {
+
+// Functions that are found by what they are asked of.
+inline bool towards(const Light<Stepped>& lamp, const Point<Stepped>& q, Direction<Stepped>& l, double& distance)
+{
+    const bool is = qray::towards<Stepped>(lamp, q, l, distance);
+    l = keep<Step::light>(l);
+    return is;
+}
+inline bool towards(const Sun<Stepped>& sun, const Point<Stepped>&, Direction<Stepped>& l, double& distance)
+{
+    l = keep<Step::light>(sun.from);
+    distance = Stepped::length_max;
+    return true;
+}
+template <Effects E>
+Rgb<Stepped> light_of_surfaces(const Scene<Stepped, E>& scene, Tag tag, bool inside, const Point<Stepped>& q)
+{
+    return keep<Step::map>(qray::light_of_surfaces<Stepped, E>(scene, tag, inside, q));
+}
+// As in fixed point, where the rounding of v.d does not reach the normal.
+inline void surface_of(const Sphere<Stepped>& s, const Corners<Stepped>& corners, const Ray<Stepped>& ray, double t,
+                       Local<Stepped> local, Point<Stepped>& point, Direction<Stepped>& n)
+{
+    local.offset -= dot<Stepped>(local.near, ray.direction);
+    qray::surface_of<Stepped>(s, corners, ray, t, local, point, n);
+}
 
 // Where a tree would say which shapes a ray meets, what rounding makes of their edges would not show. It is taken for
 // what is too large without: nearly all are triangles then, and the inside of these is exact.

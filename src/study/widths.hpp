@@ -52,6 +52,7 @@ struct Widths {
     int bits[steps];
     bool cuts[steps] = {};          // where it does not round
     int leave = 2;                  // how far off a surface new rays start, in last bits of a hit point
+    bool keeps_rest = false;        // of what rounds the centres of spheres and cones: Rounded
     const Blocks* blocks = nullptr; // of Lengths with `length` bits
     int length = 0;
 
@@ -84,6 +85,7 @@ constexpr Widths widths_of(int exposure)
 #undef QRAY_WIDTH
     w.cuts[static_cast<int>(Step::share)] = is_mixed;
     w.leave = N::leave(N::one).raw;
+    w.keeps_rest = WideFixed<N>;
     w.blocks = &N::blocks;
     w.length = Length;
     return w;
