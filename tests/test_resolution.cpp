@@ -157,4 +157,30 @@ TYPED_TEST(ResolutionTest, EyeBesideALargeBallSeesIt)
     EXPECT_GT(right, 1200);
 }
 
+// By how much of a picture's height it may move silently.
+TYPED_TEST(ResolutionTest, HorizonOfALargeBallIsWhereItIs)
+{
+    using N = TypeParam;
+    if (ShortFixed<N>) // what it rounds, the eye and the ball, moves the horizon as far
+        return;
+    const double off = (N::is_fixed ? 2e-3 : 4e-3) * 2 * std::tan(M_PI / 18);
+    Random random(92);
+    int right = 0;
+    for_large_balls<N>([&](double r, double h) {
+        for (int i = 0; i < 4; i++) {
+            const Vec3 n = random.direction(), along = unit(cross(n, random.direction())), eye = n * (r + h);
+            const double slope = -std::sqrt(h * (2 * r + h)) / r;
+            for (const double side : {-1, 1}) {
+                const std::string from = view_from(eye, eye + (along + n * (slope + side * off)) * 20);
+                ASSERT_TRUE(loaded<N>(from + flat + ball(r)));
+                if (storage<N>().lost.count != 0)
+                    continue;
+                EXPECT_EQ(light_at<N>(2, 2).x > 0.5, side < 0) << r << " " << h / step<N>;
+                right++;
+            }
+        }
+    });
+    EXPECT_GT(right, 200);
+}
+
 } // namespace

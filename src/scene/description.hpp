@@ -37,7 +37,7 @@ struct Limits {
     static constexpr uint32_t images = 64;          // different files
     static constexpr uint32_t image_size = 16'384;  // texels along either edge
     static constexpr uint32_t image_bytes = 64u << 20; // of all of them
-    static constexpr double narrow_radius = 256;      // of a scene, least, in steps of q16
+    static constexpr double narrow_radius = 256;      // of a scene, least, in steps of q16 or q24
     static constexpr double narrow_cell = 1.0 / 4096; // of a texture, likewise
 };
 

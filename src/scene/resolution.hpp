@@ -22,7 +22,7 @@ struct Steps {
     // Of a picture's height, where the object is.
     static constexpr double picture = ShortFixed<N> ? 300 : N::is_fixed ? 6144 : single ? 2048 : 0x1p28;
     // How much of a picture's height the horizon of a curved surface may move, and how many steps it is off anyway.
-    static constexpr double horizon = NarrowFixed<N> ? 1.0 / 256 : N::is_fixed ? 2e-3 : 4e-3;
+    static constexpr double horizon = ShortFixed<N> ? 1.0 / 256 : N::is_fixed ? 2e-3 : 4e-3;
     static constexpr double cone_horizon = single ? horizon / 8 : horizon;
     static constexpr double rough = NarrowFixed<N> ? 1 : 0;
 };
