@@ -65,13 +65,13 @@ def animation(what, times=TIMES):
     return f"../../../{FOLDER}/{name}"
 
 
-def report():
+def measured(columns):
+    """What each move costs in these, and a whole frame."""
     os.makedirs(FOLDER, exist_ok=True)
     for path, at_what in SCENES.items():
         with open(path, "w") as file:
             file.write(scene(at_what))
     seen, behind = SCENES
-    columns = [(board, number) for board in BOARDS for number in fixed_numbers()]
 
     def run(board, number, what, path, size):
         return runs.Run(board, path, number, size, ANIMATION=animation(what), FRAMES=FRAMES, WITHIN=WITHIN)
@@ -81,11 +81,26 @@ def report():
 
     def cost(run):
         return run.result["instructions/frame"]
-    rows = [[name] + [count((cost(plan[(what, *c)]) - cost(plan[("", *c)])) / TIMES) for c in columns]
-            for name, what in MOVES.items()]
-    rows.append(["a frame, 24 × 18 pixels"] + [count(cost(whole[c])) for c in columns])
+    rows = {name: [(cost(plan[(what, *c)]) - cost(plan[("", *c)])) / TIMES for c in columns]
+            for name, what in MOVES.items()}
+    rows["a frame, 24 × 18 pixels"] = [cost(whole[c]) for c in columns]
+    return rows
+
+
+def report():
+    columns = [(board, number) for board in BOARDS for number in fixed_numbers()]
+    rows = measured(columns)
     return ("Instructions, in a scene of a ball, a cone, a polygon, a floor and a mesh of 48 triangles, all of which "
-            "move:\n\n" + table(["move", *(f"{runs.BOARDS[b]} {n}" for b, n in columns)], rows))
+            "move:\n\n" + table(["move", *(f"{runs.BOARDS[b]} {n}" for b, n in columns)],
+                            [[name, *map(count, costs)] for name, costs in rows.items()]))
 
 
-REPORTS = {"moving": (report, lambda: [f"| {name} |" for name in MOVES])}
+def moves():
+    camera, shifted, turned, lamp, *_, frame = (count(cost) for cost, in measured([("microbit", "q32")]).values())
+    return (f"A move costs an M0 {shifted} instructions (a ball shifted) to {turned} (turned), {lamp} (a lamp) or "
+            f"{camera} (the camera) in `q32`; a frame of 24 × 18 pixels has {frame}. "
+            "[The study](src/study/README.md#scenes-that-move) has others.\n")
+
+
+REPORTS = {"moving": (report, lambda: [f"| {name} |" for name in MOVES]),
+           "moves": (moves, lambda: ["A move costs an M0"])}
