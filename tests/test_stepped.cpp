@@ -155,6 +155,26 @@ TEST(Stepped, RaysStartOffTheSurfaceByBitsOfTheHitPoint)
     EXPECT_EQ(stepped(text, w).rgb[0], 0); // 0.0125
 }
 
+TEST(Stepped, KeepsWhatRoundingTookOfACentre)
+{
+    // A ball from x = -0.47 to 0.53, in pixels of 0.012. Another beside the picture makes -1 the scene's middle, from
+    // where its centre is at 1.03, and 0.03 is less than half of 1 / 16. So large a scene is not scaled.
+    char text[300];
+    snprintf(text, sizeof text,
+             "v from 0 0 80 at 0 0 0 up 0 1 0 angle %.17g hither 1 resolution 100 1\n ambientlight 1 1 1\n"
+             "material colour 1 1 1 ambient 1 diffuse 0\n s 0.03 0 0 0.5\n s -2.03 0 0 0.5\n",
+             std::atan(0.006 / 80) * 360 / M_PI);
+    const Picture exact = stepped(text, Widths());
+    Widths w;
+    w.blocks = &q32::blocks;
+    w.length = q32::Length::frac;
+    EXPECT_EQ(stepped(text, w), exact);
+    w[Step::coordinate] = 4;
+    EXPECT_NE(stepped(text, w), exact);
+    w.keeps_rest = true;
+    EXPECT_EQ(stepped(text, w), exact);
+}
+
 TEST(Stepped, ReachesEachStep)
 {
     for (int step = 0; step < study::steps; step++) {
@@ -180,6 +200,8 @@ TEST(Stepped, HasTheWidthsOfQ24)
     EXPECT_EQ(w[Step::curved], 15);
     EXPECT_EQ(w[Step::row], 21);
     EXPECT_EQ(study::widths_of<q32>(0)[Step::curved], 30);
+    EXPECT_TRUE(study::widths_of<q32>(0).keeps_rest);
+    EXPECT_FALSE(w.keeps_rest);
     EXPECT_EQ(study::widths_of<q16>(0)[Step::quotient], 15);
 }
 
