@@ -218,6 +218,29 @@ constexpr int32_t scaled_component(int32_t x, uint32_t m, int halve)
     return (static_cast<int32_t>(whole + static_cast<uint32_t>(halve)) >> halve) + static_cast<int32_t>(rest);
 }
 
+// A vector with magnitudes of at most 2^31, the largest at least 2^30, to a unit vector in Q2.30.
+QRAY_SHARED constexpr void make_unit(int32_t* u)
+{
+    const uint64_t square = wide_norm2(u[0], u[1], u[2]);
+    uint32_t high = static_cast<uint32_t>(square >> 32);
+    uint32_t low = static_cast<uint32_t>(square);
+    int halve = 1;
+    if (high >> 30 == 0) {
+        high = (high << 2) + (low >> 30);
+        low <<= 2;
+        halve = 0;
+    }
+    const uint32_t m = rsqrt_mantissa(high, low);
+    if constexpr (has_wide_multiply) {
+        u[0] = scaled_component(u[0], m, halve);
+        u[1] = scaled_component(u[1], m, halve);
+        u[2] = scaled_component(u[2], m, halve);
+    } else {
+        for (int i = 0; i < 3; i++)
+            u[i] = scaled_component(u[i], m, halve);
+    }
+}
+
 } // namespace detail
 
 // The unit vector along (x, y, z), in Q2.30: each component of u within 0.81 ulp.
@@ -245,24 +268,28 @@ QRAY_SHARED constexpr bool unit_vector(int32_t x, int32_t y, int32_t z, int32_t*
     u[0] = static_cast<int32_t>(static_cast<uint32_t>(x) << up);
     u[1] = static_cast<int32_t>(static_cast<uint32_t>(y) << up);
     u[2] = static_cast<int32_t>(static_cast<uint32_t>(z) << up);
-    const uint64_t square = wide_norm2(u[0], u[1], u[2]);
-    uint32_t high = static_cast<uint32_t>(square >> 32);
-    uint32_t low = static_cast<uint32_t>(square);
-    int halve = 1;
-    if (high >> 30 == 0) {
-        high = (high << 2) + (low >> 30);
-        low <<= 2;
-        halve = 0;
-    }
-    const uint32_t m = detail::rsqrt_mantissa(high, low);
-    if constexpr (has_wide_multiply) {
-        u[0] = detail::scaled_component(u[0], m, halve);
-        u[1] = detail::scaled_component(u[1], m, halve);
-        u[2] = detail::scaled_component(u[2], m, halve);
-    } else {
-        for (int i = 0; i < 3; i++)
-            u[i] = detail::scaled_component(u[i], m, halve);
-    }
+    detail::make_unit(u);
+    return true;
+}
+
+// The same of 64-bit components, cut to 31 bits before: within 1.81 ulp. What is shorter than 2^32 loses its lowest bit.
+QRAY_SHARED constexpr bool unit_vector(int64_t x, int64_t y, int64_t z, int32_t* u)
+{
+    // The upper words, joined by what the lower ones hold below them.
+    const uint64_t bits = static_cast<uint64_t>((x ^ (x >> 63)) | (y ^ (y >> 63)) | (z ^ (z >> 63)));
+    const int up = count_leading_zeros(static_cast<uint32_t>(bits >> 32)) - 1;
+    const auto word = [up](int64_t v) {
+        const uint64_t w = static_cast<uint64_t>(v);
+        if constexpr (sizeof(void*) == 8)
+            return static_cast<int32_t>(w << up >> 32);
+        return static_cast<int32_t>(static_cast<uint32_t>(w >> 32) << up | static_cast<uint32_t>(w) >> 1 >> (31 - up));
+    };
+    if (sizeof(void*) == 8 || up == 31)
+        return unit_vector(word(x), word(y), word(z), u);
+    u[0] = word(x);
+    u[1] = word(y);
+    u[2] = word(z);
+    detail::make_unit(u);
     return true;
 }
 

@@ -93,8 +93,10 @@ QRAY_INLINE constexpr void walk(const TreeEntry<N>* e, ProjectedRay& ray, Limit 
         e = next_leaf(ray, e);
         if (e->link == Entry::last)
             return;
-        const int32_t along = ray.axis == 0 ? e->half_x : ray.axis == 1 ? e->half_y : e->half_z;
-        ray.within = 2 * (along + e->half_x + e->half_y + e->half_z);
+        if constexpr (!ProjectedRay::is_exact<N>) {
+            const int32_t along = ray.axis == 0 ? e->half_x : ray.axis == 1 ? e->half_y : e->half_z;
+            ray.within = 2 * (along + e->half_x + e->half_y + e->half_z);
+        }
         if (visit(e->kind(), e->first(), e->count()))
             return;
     }

@@ -98,11 +98,17 @@ QRAY_INLINE constexpr bool surely_missed(const S& s, const RejectRay<N>& ray)
 
 // Only one of three or four corners.
 template <HasCorners S, class N>
-QRAY_INLINE constexpr bool surely_missed(const S& s, const Corners<N>& corners, const ProjectedRay& ray)
+QRAY_INLINE constexpr bool surely_missed(const S& s, const Corners<N>& corners, const Ray<N>& ray,
+                                         const ProjectedRay& seen)
 {
+    // What is as large as a floor is seldom missed.
+    if constexpr (ProjectedRay::is_exact<N> && !S::is_lean)
+        if (s.bound.raw >> (N::Length::frac + 4) != 0)
+            return false;
     const auto [a, b, others, count] = s.figure(corners.points);
     // Where it passes inside of one, it passes inside of an odd number of the triangles that it is fanned into.
-    return count <= 4 && ray.misses<N>(*a, *b, others[0]) && (count == 3 || ray.misses<N>(*a, others[0], others[1]));
+    return count <= 4 && seen.misses(ray, *a, *b, others[0])
+        && (count == 3 || seen.misses(ray, *a, others[0], others[1]));
 }
 
 template <HasCorners S, class N>

@@ -107,7 +107,7 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
                              [&]<class S>(const S& shape, Kind kind, uint32_t index) __attribute__((always_inline)) {
                 bool missed;
                 if constexpr (S::has_corners)
-                    missed = surely_missed(shape, corners_of(scene), projected);
+                    missed = surely_missed(shape, corners_of(scene), ray, projected);
                 else
                     missed = surely_missed(shape, reject);
                 return !missed && f(shape, kind, index);
