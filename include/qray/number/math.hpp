@@ -272,7 +272,7 @@ QRAY_SHARED constexpr bool unit_vector(int32_t x, int32_t y, int32_t z, int32_t*
     return true;
 }
 
-// The same of 64-bit components, cut to 31 bits before: within 1.81 ulp. What is shorter than 2^32 loses its lowest bit.
+// The same of 64-bit components, cut to 31 bits before: within 1.81 ulp. What is shorter than 2^32 loses its last bit.
 QRAY_SHARED constexpr bool unit_vector(int64_t x, int64_t y, int64_t z, int32_t* u)
 {
     // The upper words, joined by what the lower ones hold below them.

@@ -144,10 +144,10 @@ private:
         z = line(oz, dz);
     }
 
-    // A corner is (u, v) beside the ray, in Q22: the difference of two upper halves, each cut off, is wrong by less than
-    // 1. It is less than 124 sqrt(3), and so than 2^29.8. Twice the area that the line makes with an edge is in Q12: the
-    // four numbers being off are worth less than 4 2^29.8 / 2^32 < 0.9, what is cut off two products less than 1.
-    // So the signs of what is not -1, 0 or 1 are those of exact arithmetic, as is what encloses() says.
+    // A corner is (u, v) beside the ray, in Q22: the difference of two upper halves, each cut off, is wrong by less
+    // than 1. It is less than 124 sqrt(3), and so than 2^29.8. Twice the area that the line makes with an edge is in
+    // Q12: the four numbers being off are worth less than 4 2^29.8 / 2^32 < 0.9, what is cut off two products less
+    // than 1. So the signs of what is not -1, 0 or 1 are those of exact arithmetic, as is what encloses() says.
     template <class N, int Axis>
     QRAY_INLINE static constexpr bool misses(const Ray<N>& ray, const Point<N>& a, const Point<N>& b, const Point<N>& c)
     {
