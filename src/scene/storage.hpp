@@ -105,9 +105,9 @@ struct Storage {
             cut(vertices, (1 + once) * d.vertex_count);
             cut(normals, (1 + once) * d.vertex_count);
             cut(tree_shapes, all);
-            // One a triangle; most for its size takes what has one edge more than a block.
+            // One a patch; most for its size, four, takes what has one corner more than fit a block: 7 or 5.
             if constexpr (has_outlines<N>)
-                cut(outlines, shapes[static_cast<int>(Kind::patch)] + d.vertex_count * 8 / (3 * bound_lanes));
+                cut(outlines, shapes[static_cast<int>(Kind::patch)] + d.vertex_count * 4 / (bound_lanes / 2 + 3));
             cut(split_shapes, all);
             cut(split_nodes, 2 * all);
             // All but those of leaves are full, and with two leaves each there are bound_lanes of these below one.

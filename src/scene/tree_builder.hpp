@@ -77,7 +77,7 @@ class OutlineBuilder {
 public:
     explicit OutlineBuilder(Storage<N>& storage) : s(storage) {}
 
-    // The shapes of a leaf, those with few edges together in a block.
+    // The shapes of a leaf, those with few corners together in a block.
     void add(uint32_t first, uint32_t count)
     {
         filled = bound_lanes;
@@ -99,58 +99,58 @@ public:
 
 private:
     Storage<N>& s;
-    uint32_t filled; // edges of the last block
+    uint32_t filled; // corners of the last block
 
     template <class Number>
     void outline(TreeShape& shape, uint32_t count, Number number)
     {
-        if (count > bound_lanes - filled)
+        // A corner again makes an edge without length, which crosses nothing.
+        const auto corner = [&](uint32_t i) { return s.vertices.data[number(i < count ? i : 0)]; };
+        const uint32_t own = count > 4 ? 3 : 4, fours = (count + own - 1) / own; // edges of a four
+        if (fours * 4 > bound_lanes - filled)
             filled = bound_lanes;
         shape.block = s.outlines.count - (filled < bound_lanes);
-        const uint32_t begin = filled % bound_lanes;
-        for (uint32_t i = 0; i < count; i++, filled++) {
-            const Point<N>& a = s.vertices.data[number(i)];
-            const Point<N>& b = s.vertices.data[number((i + 1) % count)];
+        shape.edges = (count > 4 ? 0x77777777 : (1u << count) - 1) << filled % bound_lanes;
+        for (uint32_t i = 0; i < fours * 4; i++, filled++) {
             if (filled == bound_lanes) {
                 filled = 0;
-                push(a); // an edge without length crosses nothing
+                push(corner(0));
             }
-            put(s.outlines.count - 1, filled, a, b);
+            put(s.outlines.count - 1, filled, corner(i / 4 * own + i % 4));
         }
         shape.blocks = s.outlines.count - shape.block;
-        shape.edges = (1u << bound_lanes) - 1;
-        if (shape.blocks == 1) {
-            shape.edges = ((1u << count) - 1) << begin;
+        if (shape.blocks == 1)
             return;
-        }
         filled = bound_lanes; // and none but its own
         for (uint32_t i = 0; i < shape.blocks; i++) {
-            if (i % bound_lanes == 0)
-                push(s.vertices.data[number(0)]);
-            Point<N> low = s.vertices.data[number(i * bound_lanes)], high = low;
-            for (uint32_t j = 1; j <= bound_lanes; j++) {
-                const Point<N>& p = s.vertices.data[number((i * bound_lanes + j) % count)];
-                low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-                high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+            if (i % bound_lanes == 0) {
+                push(corner(0));
+                push(corner(0));
             }
-            put(s.outlines.count - 1, i % bound_lanes, low, high);
+            for (int axis = 0; axis < 3; axis++) {
+                const auto& row = s.outlines.data[shape.block + i].corners[axis];
+                auto low = row[0], high = low;
+                for (uint32_t lane = 1; lane < bound_lanes; lane++) {
+                    low = std::min(low, row[lane]);
+                    high = std::max(high, row[lane]);
+                }
+                s.outlines.data[s.outlines.count - 2].corners[axis][i % bound_lanes] = low;
+                s.outlines.data[s.outlines.count - 1].corners[axis][i % bound_lanes] = high;
+            }
         }
     }
     void push(const Point<N>& p)
     {
         s.outlines.push();
         for (uint32_t lane = 0; lane < bound_lanes; lane++)
-            put(s.outlines.count - 1, lane, p, p);
+            put(s.outlines.count - 1, lane, p);
     }
-    void put(uint32_t block, uint32_t lane, const Point<N>& a, const Point<N>& b)
+    void put(uint32_t block, uint32_t lane, const Point<N>& p)
     {
-        const Point<N>* const ends[] = {&a, &b};
-        for (int end = 0; end < 2; end++) {
-            auto& rows = s.outlines.data[block].ends[end];
-            rows[0][lane] = coordinate(ends[end]->x);
-            rows[1][lane] = coordinate(ends[end]->y);
-            rows[2][lane] = coordinate(ends[end]->z);
-        }
+        auto& rows = s.outlines.data[block].corners;
+        rows[0][lane] = coordinate(p.x);
+        rows[1][lane] = coordinate(p.y);
+        rows[2][lane] = coordinate(p.z);
     }
     static auto coordinate(typename N::Length v)
     {

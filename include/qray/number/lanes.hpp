@@ -68,6 +68,16 @@ QRAY_INLINE Bounds higher(const Bounds& a, const Bounds& b)
 #endif
 }
 
+// Element i of the result is that behind v's element i, in each four of them round and round.
+QRAY_INLINE Bounds next_in_four(const Bounds& v)
+{
+#if QRAY_LANES
+    return __builtin_shufflevector(v, v, 1, 2, 3, 0, 5, 6, 7, 4);
+#else
+    return Bounds{v[1], v[2], v[3], v[0]};
+#endif
+}
+
 // a b + c, rounded once or twice.
 QRAY_INLINE Bounds mul_add(const Bounds& a, const Bounds& b, const Bounds& c)
 {

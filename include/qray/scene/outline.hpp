@@ -27,12 +27,13 @@ struct OutlineRow<true> {
     using Type = BoundMask;
 };
 
-// x, y, z of where edges begin, then of where they end; or, behind the blocks of an outline that has several, the
-// lowest and the highest of each of these blocks.
+// x, y, z of corners. In each four of them an edge leads from one to the next and from the last to the first; of an
+// outline of more, whose fours share the corner between them, that last edge does not count. Behind the blocks of an
+// outline that has several: the lowest of each of these blocks, and the highest.
 template <class N>
-struct alignas(2 * sizeof(Bounds)) OutlineBlock {
+struct alignas(sizeof(Bounds)) OutlineBlock {
     using Row = typename OutlineRow<N::is_fixed>::Type;
-    Row ends[2][3];
+    Row corners[3];
 };
 
 template <class N>
@@ -58,16 +59,18 @@ public:
     // The edges that cross the half-line, as bits, and those of which that is not known.
     QRAY_INLINE uint32_t crossed(const OutlineBlock<N>& block, uint32_t& unsure) const
     {
-        Bounds ax, ay, bx, by;
-        sheared(block.ends[0], ax, ay);
-        sheared(block.ends[1], bx, by);
-        const Bounds e = ax * by - bx * ay, none{};
-        const BoundMask up = by > none, crosses = (ay > none) ^ up, left = (up & (e > none)) | (~up & (e < none));
+        const Bounds vx = number(block.corners[x_row] - ox), vy = number(block.corners[y_row] - oy);
+        const Bounds vz = number(block.corners[z_row] - oz), none{};
+        const Bounds ax = vx * dz - vz * dx, bx = next_in_four(ax), ay = vy * dz - vz * dy, by = next_in_four(ay);
+        const Bounds e = ax * by - bx * ay;
+        const BoundMask up = by > none, crosses = (ay > none) ^ up;
+        // The edge's sign, the other one where it leads down.
+        const BoundMask left = __builtin_bit_cast(Bounds, __builtin_bit_cast(BoundMask, e) ^ (~up & INT32_MIN)) > none;
         if constexpr (N::is_fixed) {
             constexpr float apart = 2048;
-            const Bounds near_a = magnitude(ay), near_b = magnitude(by);
-            const Bounds margin = (magnitude(ax) + near_a + magnitude(bx) + near_b + apart) * apart;
-            unsure = mask_bits((lower(near_a, near_b) <= apart) | (crosses & (magnitude(e) <= margin)));
+            const Bounds near = magnitude(ay), size = magnitude(ax) + near;
+            const Bounds margin = (size + next_in_four(size) + apart) * apart;
+            unsure = mask_bits((lower(near, next_in_four(near)) <= apart) | (crosses & (magnitude(e) <= margin)));
             return mask_bits(crosses & left);
         } else {
             const BoundMask right_a = ax > none, right_b = bx > none;
@@ -75,20 +78,20 @@ public:
         }
     }
 
-    // In which blocks may edges cross it, given these blocks' extents? None does where all sheared y have the same
-    // sign, or all x are below 0; each is off by less than 1024 ulp here and there, in float by 2^-13.
-    QRAY_INLINE uint32_t meets(const OutlineBlock<N>& extents) const
+    // In which blocks may edges cross it, given these blocks' lowest and highest? None does where all sheared y have
+    // the same sign, or all x are below 0; each is off by less than 1024 ulp here and there, in float by 2^-13.
+    QRAY_INLINE uint32_t meets(const OutlineBlock<N>& lowest, const OutlineBlock<N>& highest) const
     {
         constexpr float apart = N::is_fixed ? 2048 : 0x1p-12f;
         Bounds low_x, high_x, low_y, high_y;
         const auto seen = [&](size_t row, const Row& o, const Bounds& d, const Bounds& low_z, const Bounds& high_z,
                               Bounds& low, Bounds& high) __attribute__((always_inline)) {
-            const Bounds a = number(extents.ends[0][row] - o) * dz, b = number(extents.ends[1][row] - o) * dz;
+            const Bounds a = number(lowest.corners[row] - o) * dz, b = number(highest.corners[row] - o) * dz;
             const Bounds e = low_z * d, f = high_z * d;
             low = lower(a, b) - higher(e, f);
             high = higher(a, b) - lower(e, f);
         };
-        const Bounds low_z = number(extents.ends[0][z_row] - oz), high_z = number(extents.ends[1][z_row] - oz);
+        const Bounds low_z = number(lowest.corners[z_row] - oz), high_z = number(highest.corners[z_row] - oz);
         seen(x_row, ox, dx, low_z, high_z, low_x, high_x);
         seen(y_row, oy, dy, low_z, high_z, low_y, high_y);
         return mask_bits((lower(high_x, high_y) >= -apart) & (low_y <= apart));
@@ -115,13 +118,6 @@ private:
     }
     QRAY_INLINE static Bounds number(const Bounds& v) { return v; }
     QRAY_INLINE static Bounds number(const BoundMask& v) { return __builtin_convertvector(v, Bounds); }
-
-    QRAY_INLINE void sheared(const Row (&end)[3], Bounds& x, Bounds& y) const
-    {
-        const Bounds vx = number(end[x_row] - ox), vy = number(end[y_row] - oy), vz = number(end[z_row] - oz);
-        x = vx * dz - vz * dx;
-        y = vy * dz - vz * dy;
-    }
 };
 
 } // namespace qray

@@ -42,7 +42,7 @@ struct BallNode {
 constexpr uint32_t leaf_bit = 1u << 31;
 constexpr uint32_t leaf_link(uint32_t first, uint32_t count) { return leaf_bit | (count - 1) << 28 | first; }
 
-// A shape, and its outline if it has one: all edges of some blocks, or those of `edges`, as bits, of one.
+// A shape, and its outline if it has one: the edges that `edges` has bits of, of one block or of each of some.
 struct TreeShape {
     ShapeId id;
     uint32_t block, blocks, edges;
@@ -205,9 +205,11 @@ struct Outlines<N, true> {
             if (shape.blocks == 1)
                 crossed = ray.crossed(tree.outlines[held], unsure);
         }
-        uint32_t edges = crossed & shape.edges, doubt = unsure & shape.edges;
+        uint32_t edges = crossed, doubt = unsure;
         if (shape.blocks > 1)
             edges = all_crossed(tree.outlines + shape.block, shape.blocks, doubt);
+        edges &= shape.edges;
+        doubt &= shape.edges;
         open = doubt != 0;
         return !open && !__builtin_parity(edges);
     }
@@ -219,7 +221,8 @@ private:
         uint32_t edges = 0;
         doubt = 0;
         for (uint32_t i = 0; i < count; i += bound_lanes) {
-            uint32_t near = ray.meets(blocks[count + i / bound_lanes]);
+            const OutlineBlock<N>* const extents = blocks + count + i / bound_lanes * 2;
+            uint32_t near = ray.meets(extents[0], extents[1]);
             near &= count - i < bound_lanes ? (1u << (count - i)) - 1 : ~0u;
             for (; near != 0; near &= near - 1) {
                 uint32_t unsure_edges = 0;
