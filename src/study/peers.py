@@ -20,7 +20,7 @@ from text import table  # noqa: E402
 POV = ["balls_4", "gears_4", "mount_6", "rings_7", "teapot_12", "tetra_6", "tree_11"]
 EMBREE = ["balls_1", "balls_3", "balls_4", "balls_5", "teapot_12", "tetra_6", "tetra_8"]
 NUMBERS = ["float", "q32"]
-SIZE, ROUNDS = 512, 3
+SIZE, ROUNDS = 512, 7
 
 
 def missing(folder):
