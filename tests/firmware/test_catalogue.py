@@ -66,7 +66,8 @@ def run_catalogue(board, number, name="catalogue", **options):
     """What the firmware says: {name: number} and the lines of cases that do not hold."""
     elf = f"build/{board}/{name}-{number}.elf"
     status, text = make(elf, f"BOARD={board}", f"NAME={name}", f"NUMBER={number}",
-                        "FW_MAIN=tests/firmware/catalogue.cpp", f"FW_EXTRA=-DCATALOGUE_NUMBER={TYPES.get(number, number)}",
+                        "FW_MAIN=tests/firmware/catalogue.cpp",
+                        f"FW_EXTRA=-DCATALOGUE_NUMBER={TYPES.get(number, number)}",
                         *(f"{k}={v}" for k, v in options.items()))
     if status != 0:
         raise RuntimeError(text)
