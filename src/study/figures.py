@@ -203,8 +203,8 @@ def panel(study, path):
 def steps(b, cost, target, path):
     """Of bits.py: accuracy by step and bits, those that need the most first, and what a step takes on boards."""
     boards = list(dict.fromkeys(board for board, _ in cost))
-    figure, (heat, *prices) = plt.subplots(1, 1 + len(boards), figsize=(8.6 + 2.6 * len(boards), 8), sharey=True,
-                                           width_ratios=[6] + [2] * len(boards))
+    figure, ((heat, *prices),) = plt.subplots(1, 1 + len(boards), figsize=(8.6 + 2.6 * len(boards), 8), sharey=True,
+                                              squeeze=False, width_ratios=[6] + [2] * len(boards))
     medians = {name: b.median(row) for name, row in b.at.items() if row}
     names = sorted(medians, key=lambda name: (-(b.needed(medians[name]) or math.inf), sum(medians[name])))
     values = [b.median(b.together), *(medians[name] for name in names)]
