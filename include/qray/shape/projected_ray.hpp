@@ -1,5 +1,5 @@
 // A ray as seen along the axis in which its direction is largest, in integers of 32 bits: what a box or a triangle far
-// from it is turned away by, for two products each. It is two lines, y = y0 + s x and z = z0 + s' x, x being
+// from it is turned ahead_of by, for two products each. It is two lines, y = y0 + s x and z = z0 + s' x, x being
 // the coordinate along that axis and slopes at most 1, in Q14. Lengths are in steps of 1/512, of which a world
 // of +-62 has +-31744.
 //
@@ -151,14 +151,14 @@ private:
     template <class N, int Axis>
     QRAY_INLINE static constexpr bool misses(const Ray<N>& ray, const Point<N>& a, const Point<N>& b, const Point<N>& c)
     {
-        constexpr auto along = [](const auto& p) { return (Axis == 0 ? p.x : Axis == 1 ? p.y : p.z).raw; };
+        constexpr auto ahead_of = [](const auto& p) { return (Axis == 0 ? p.x : Axis == 1 ? p.y : p.z).raw; };
         constexpr auto first = [](const auto& p) { return (Axis == 0 ? p.y : p.x).raw; };
         constexpr auto second = [](const auto& p) { return (Axis == 2 ? p.y : p.z).raw; };
         const auto& [o, d, from, outward] = ray;
-        const int32_t dx = along(d), dy = first(d), dz = second(d);
-        const int32_t ax = along(a) - along(o), bx = along(b) - along(o), cx = along(c) - along(o);
-        const auto seen = [dx](int32_t y, int32_t x, int32_t slope) {
-            return signed_mul_high(y, dx) - signed_mul_high(x, slope);
+        const int32_t dx = ahead_of(d), dy = first(d), dz = second(d);
+        const int32_t ax = ahead_of(a) - ahead_of(o), bx = ahead_of(b) - ahead_of(o), cx = ahead_of(c) - ahead_of(o);
+        const auto seen = [dx](int32_t across, int32_t ahead, int32_t slope) {
+            return signed_mul_high(across, dx) - signed_mul_high(ahead, slope);
         };
         const auto on_one_side = [](int32_t p, int32_t q, int32_t r) {
             return p > 0 ? q > 0 && r > 0 : p < 0 && q < 0 && r < 0;
