@@ -284,7 +284,7 @@ QRAY_SHARED constexpr bool unit_vector(int64_t x, int64_t y, int64_t z, int32_t*
             return static_cast<int32_t>(w << up >> 32);
         return static_cast<int32_t>(static_cast<uint32_t>(w >> 32) << up | static_cast<uint32_t>(w) >> 1 >> (31 - up));
     };
-    if (sizeof(void*) == 8 || up == 31)
+    if (has_wide_multiply || up == 31)
         return unit_vector(word(x), word(y), word(z), u);
     u[0] = word(x);
     u[1] = word(y);
