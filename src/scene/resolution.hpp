@@ -50,12 +50,10 @@ public:
     // Of the radius of a ball, in such steps: more than one where it takes more bits than may be squared; else 0.
     double coarse([[maybe_unused]] const Object& o) const
     {
+        int fine = 0;
         if constexpr (NarrowFixed<N>)
-            if (o.kind == Kind::sphere) {
-                const int fine = block_scale<N>(Convert<N>::length(o.ra * frame.scale), &Blocks::ball);
-                return fine < 0 ? ldexp(1, -fine) : 0;
-            }
-        return 0;
+            fine = o.kind == Kind::sphere ? block_scale<N>(Convert<N>::length(o.ra * frame.scale), &Blocks::ball) : 0;
+        return fine < 0 ? ldexp(1, -fine) : 0;
     }
 
     // What double makes of the distance 0 from p to the surface with this normal.

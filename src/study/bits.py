@@ -235,9 +235,9 @@ and stores included, in firmware that calls nothing else (`steps.cpp`); what sta
 What a number system reaches, and what its widths say: all steps rounded to its bits at once (together), and the errors
 of each alone, added (sum): squares of bytes that are off by up to 2 levels, and of others, which lie where edges have
 moved, the root of the sum of the squares of these, as ways that know nothing of each other add up. One pixel beside an
-edge may be 10 dB of a small picture: so what is reached, and together, are of {b.larger} times the columns and rows, and
-edges that move in few pixels were measured with 4 or 8 bits less, which move them by 16 or 256 times as much. All these
-pictures are rolled by 3 degrees, as an edge along a row of pixels moves over all of them or over none.
+edge may be 10 dB of a small picture: so what is reached, and together, are of {b.larger} times the columns and rows,
+and edges that move in few pixels were measured with 4 or 8 bits less, which move them by 16 or 256 times as much. All
+these pictures are rolled by 3 degrees, as an edge along a row of pixels moves over all of them or over none.
 
 {numbers_table(b)}"""
 
