@@ -16,9 +16,9 @@
 
 // Of a step of a shape's test: by itself, so that it takes stack for a while only; in lanes the compiler decides.
 #if QRAY_LANES
-#define QRAY_STEP
+#define QRAY_STAGE
 #else
-#define QRAY_STEP QRAY_NOINLINE
+#define QRAY_STAGE QRAY_NOINLINE
 #endif
 
 namespace qray {

@@ -273,6 +273,7 @@ QRAY_SHARED constexpr bool unit_vector(int32_t x, int32_t y, int32_t z, int32_t*
 }
 
 // The same of 64-bit components, cut to 31 bits before: within 1.81 ulp. What is shorter than 2^32 loses its last bit.
+// As q32::normalise(), in less stack where a product is a call.
 QRAY_SHARED constexpr bool unit_vector(int64_t x, int64_t y, int64_t z, int32_t* u)
 {
     // The upper words, joined by what the lower ones hold below them.
@@ -280,11 +281,9 @@ QRAY_SHARED constexpr bool unit_vector(int64_t x, int64_t y, int64_t z, int32_t*
     const int up = count_leading_zeros(static_cast<uint32_t>(bits >> 32)) - 1;
     const auto word = [up](int64_t v) {
         const uint64_t w = static_cast<uint64_t>(v);
-        if constexpr (sizeof(void*) == 8)
-            return static_cast<int32_t>(w << up >> 32);
         return static_cast<int32_t>(static_cast<uint32_t>(w >> 32) << up | static_cast<uint32_t>(w) >> 1 >> (31 - up));
     };
-    if (has_wide_multiply || up == 31)
+    if (up == 31)
         return unit_vector(word(x), word(y), word(z), u);
     u[0] = word(x);
     u[1] = word(y);

@@ -135,16 +135,27 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
         return normalise(x.raw, y.raw, z.raw, ux, uy, uz);
     }
     // The same, but cut to 31 bits before: each component within 1.81 ulp. What is shorter than 2^32 loses
-    // its lowest bit.
+    // its lowest bit. Where a product is a call, a function by itself takes less stack.
     static constexpr bool normalise(int64_t x, int64_t y, int64_t z, Unit& ux, Unit& uy, Unit& uz)
     {
-        int32_t u[3]{};
-        if (!unit_vector(x, y, z, u))
-            return false;
-        ux = {u[0]};
-        uy = {u[1]};
-        uz = {u[2]};
-        return true;
+        if constexpr (!has_wide_multiply) {
+            int32_t u[3]{};
+            const bool known = unit_vector(x, y, z, u);
+            ux = {u[0]};
+            uy = {u[1]};
+            uz = {u[2]};
+            return known;
+        }
+        // To 31 bits: the upper words, joined by what the lower ones hold below them.
+        int up = 31;
+        if constexpr (sizeof(void*) == 8) {
+            const int zeros =
+                count_leading_zeros(static_cast<uint64_t>((x ^ (x >> 63)) | (y ^ (y >> 63)) | (z ^ (z >> 63))));
+            up = zeros < 32 ? zeros - 1 : 31;
+        } else {
+            up = count_leading_zeros(high_magnitude(x) | high_magnitude(y) | high_magnitude(z)) - 1;
+        }
+        return normalise(top_word(x, up), top_word(y, up), top_word(z, up), ux, uy, uz);
     }
     template <int F>
     static constexpr bool normalise(Wide<F, 32> x, Wide<F, 32> y, Wide<F, 32> z, Unit& ux, Unit& uy, Unit& uz)
@@ -229,6 +240,21 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
     QRAY_INLINE static constexpr int32_t shift_left(int32_t v, int by)
     {
         return by >= 0 ? static_cast<int32_t>(static_cast<uint32_t>(v) << by) : v >> -by;
+    }
+
+private:
+    static constexpr uint32_t high_magnitude(int64_t v)
+    {
+        const int32_t high = static_cast<int32_t>(v >> 32);
+        return static_cast<uint32_t>(high ^ (high >> 31));
+    }
+    // The upper 32 bits of v 2^up, for up in [0, 31]; all below 2^31 of v if that is 31.
+    static constexpr int32_t top_word(int64_t v, int up)
+    {
+        if constexpr (sizeof(void*) == 8)
+            return static_cast<int32_t>(static_cast<uint64_t>(v) << up >> 32);
+        const uint32_t high = static_cast<uint32_t>(static_cast<uint64_t>(v) >> 32), low = static_cast<uint32_t>(v);
+        return static_cast<int32_t>((high << up) | (low >> 1 >> (31 - up)));
     }
 };
 

@@ -68,7 +68,7 @@ QRAY_NOINLINE constexpr bool encloses(const Figure<Point<N>>& figure, const Ray<
 // Where the ray meets the plane through c; 0 where that is seen almost edge on, and says too little. False where it is
 // not met in (0, limit].
 template <class N>
-QRAY_STEP constexpr bool meets_plane(const Direction<N>& normal, const Point<N>& c, const Ray<N>& ray,
+QRAY_STAGE constexpr bool meets_plane(const Direction<N>& normal, const Point<N>& c, const Ray<N>& ray,
                                      typename N::Length limit, typename N::Length& t)
 {
     const auto den = dot<N>(ray.direction, normal);
@@ -132,7 +132,7 @@ QRAY_INLINE constexpr const auto& known_normal(const S& s)
 // known to pass inside. `own`: the normal, where the shape does not have it. The steps are functions, so that they take
 // the same stack in turn.
 template <bool Enclosed, HasCorners S, class N, class... Own>
-QRAY_STEP constexpr bool meets(const S& s, const Point<N>* points, const Ray<N>& ray, typename N::Length limit,
+QRAY_STAGE constexpr bool meets(const S& s, const Point<N>* points, const Ray<N>& ray, typename N::Length limit,
                                typename N::Length& t, bool to_light, const Own&... own)
 {
     const Direction<N>& normal = known_normal(s, own...);
@@ -199,7 +199,7 @@ QRAY_INLINE constexpr void surface_of(const S& s, const Corners<N>& corners, con
 // The barycentric weights of where the ray passes a triangle with these corners, or false. By itself, so that its stack
 // is free again where the blend is made unit.
 template <class N, HasCorners S>
-QRAY_STEP constexpr bool corner_weights(const S& s, const Point<N>* points, const Ray<N>& ray,
+QRAY_STAGE constexpr bool corner_weights(const S& s, const Point<N>* points, const Ray<N>& ray,
                                         typename N::Unit (&w)[3])
 {
     const Figure<Point<N>> figure = s.figure(points);
@@ -211,7 +211,7 @@ QRAY_STEP constexpr bool corner_weights(const S& s, const Point<N>* points, cons
 
 // The blend of three normals by weights, made unit; false where that vanishes.
 template <class N, HasCorners S>
-QRAY_STEP constexpr bool blended(const S& s, const Direction<N>* normals, const typename N::Unit (&w)[3],
+QRAY_STAGE constexpr bool blended(const S& s, const Direction<N>* normals, const typename N::Unit (&w)[3],
                                  Direction<N>& n)
 {
     const auto [a, b, c, count] = s.figure(normals);
@@ -224,7 +224,7 @@ QRAY_STEP constexpr bool blended(const S& s, const Direction<N>* normals, const 
 // The blend of a triangle's corner normals where the ray meets it; g where that vanishes.
 template <HasCorners S, class N>
     requires S::is_smooth
-QRAY_STEP constexpr Direction<N> shading_normal(const S& s, const Corners<N>& corners, const Ray<N>& ray,
+QRAY_STAGE constexpr Direction<N> shading_normal(const S& s, const Corners<N>& corners, const Ray<N>& ray,
                                                 const Direction<N>& g)
 {
     typename N::Unit w[3]{};

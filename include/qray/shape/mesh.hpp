@@ -51,12 +51,8 @@ constexpr bool normal_across(const Point<N>& a, const Point<N>& b, const Point<N
     const Point<N> u = b - a, v = c - a;
     const auto area = [](auto p, auto q, auto r, auto s) { return wide_mul(p.raw, q.raw) - wide_mul(r.raw, s.raw); };
     const int64_t x = area(u.y, v.z, u.z, v.y), y = area(u.z, v.x, u.x, v.z), z = area(u.x, v.y, u.y, v.x);
-    if constexpr (WideFixed<N>) {
-        int32_t unit[3]{};
-        const bool known = unit_vector(x, y, z, unit); // N::normalise(), in less stack
-        n = {{unit[0]}, {unit[1]}, {unit[2]}};
-        return known;
-    }
+    if constexpr (WideFixed<N>)
+        return N::normalise(x, y, z, n.x, n.y, n.z);
     // To 30 bits.
     const int64_t all = (x ^ (x >> 63)) | (y ^ (y >> 63)) | (z ^ (z >> 63)) | 1;
     const int zeros = count_leading_zeros(static_cast<uint64_t>(all));
