@@ -138,6 +138,11 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
     // its lowest bit. Where a product is a call, a function by itself takes less stack.
     static constexpr bool normalise(int64_t x, int64_t y, int64_t z, Unit& ux, Unit& uy, Unit& uz)
     {
+        return normalise_here(x, y, z, ux, uy, uz);
+    }
+    // The same in the caller: for what is done for each ray, or pixel.
+    QRAY_INLINE static constexpr bool normalise_here(int64_t x, int64_t y, int64_t z, Unit& ux, Unit& uy, Unit& uz)
+    {
         if constexpr (!has_wide_multiply) {
             int32_t u[3]{};
             const bool known = unit_vector(x, y, z, u);

@@ -199,7 +199,13 @@ template <InParts N>
 struct Pencil<N> {
     using Part = typename N::Span;
     Part x, y, z;
-    constexpr bool unit(Vec<typename N::Unit>& d) const { return N::normalise(x, y, z, d.x, d.y, d.z); }
+    constexpr bool unit(Vec<typename N::Unit>& d) const
+    {
+        if constexpr (requires { N::normalise_here(x, y, z, d.x, d.y, d.z); })
+            return N::normalise_here(x, y, z, d.x, d.y, d.z);
+        else
+            return N::normalise(x, y, z, d.x, d.y, d.z);
+    }
     friend constexpr Pencil operator+(const Pencil& a, const Pencil& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
     friend constexpr Pencil operator*(const Pencil& a, int32_t k)
     {
