@@ -218,6 +218,24 @@ constexpr int32_t scaled_component(int32_t x, uint32_t m, int halve)
     return (static_cast<int32_t>(whole + static_cast<uint32_t>(halve)) >> halve) + static_cast<int32_t>(rest);
 }
 
+// By how many bits three numbers can be shifted left, so that their upper words say most; at most 31.
+constexpr int top_bits(int64_t x, int64_t y, int64_t z)
+{
+    const auto magnitude = [](int64_t v) {
+        const int32_t high = static_cast<int32_t>(v >> 32);
+        return static_cast<uint32_t>(high ^ (high >> 31));
+    };
+    return count_leading_zeros(magnitude(x) | magnitude(y) | magnitude(z)) - 1;
+}
+// The upper 32 bits of v 2^up, for up in [0, 31]; all below 2^31 of v if that is 31.
+constexpr int32_t top_word(int64_t v, int up)
+{
+    if constexpr (sizeof(void*) == 8)
+        return static_cast<int32_t>(static_cast<uint64_t>(v) << up >> 32);
+    const uint32_t high = static_cast<uint32_t>(static_cast<uint64_t>(v) >> 32), low = static_cast<uint32_t>(v);
+    return static_cast<int32_t>((high << up) | (low >> 1 >> (31 - up)));
+}
+
 // A vector with magnitudes of at most 2^31, the largest at least 2^30, to a unit vector in Q2.30.
 QRAY_SHARED constexpr void make_unit(int32_t* u)
 {
@@ -276,18 +294,13 @@ QRAY_SHARED constexpr bool unit_vector(int32_t x, int32_t y, int32_t z, int32_t*
 // As q32::normalise(), in less stack where a product is a call.
 QRAY_SHARED constexpr bool unit_vector(int64_t x, int64_t y, int64_t z, int32_t* u)
 {
-    // The upper words, joined by what the lower ones hold below them.
-    const uint64_t bits = static_cast<uint64_t>((x ^ (x >> 63)) | (y ^ (y >> 63)) | (z ^ (z >> 63)));
-    const int up = count_leading_zeros(static_cast<uint32_t>(bits >> 32)) - 1;
-    const auto word = [up](int64_t v) {
-        const uint64_t w = static_cast<uint64_t>(v);
-        return static_cast<int32_t>(static_cast<uint32_t>(w >> 32) << up | static_cast<uint32_t>(w) >> 1 >> (31 - up));
-    };
+    const int up = detail::top_bits(x, y, z);
+    const int32_t a = detail::top_word(x, up), b = detail::top_word(y, up), c = detail::top_word(z, up);
     if (up == 31)
-        return unit_vector(word(x), word(y), word(z), u);
-    u[0] = word(x);
-    u[1] = word(y);
-    u[2] = word(z);
+        return unit_vector(a, b, c, u);
+    u[0] = a;
+    u[1] = b;
+    u[2] = c;
     detail::make_unit(u);
     return true;
 }

@@ -151,16 +151,8 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
             uz = {u[2]};
             return known;
         }
-        // To 31 bits: the upper words, joined by what the lower ones hold below them.
-        int up = 31;
-        if constexpr (sizeof(void*) == 8) {
-            const int zeros =
-                count_leading_zeros(static_cast<uint64_t>((x ^ (x >> 63)) | (y ^ (y >> 63)) | (z ^ (z >> 63))));
-            up = zeros < 32 ? zeros - 1 : 31;
-        } else {
-            up = count_leading_zeros(high_magnitude(x) | high_magnitude(y) | high_magnitude(z)) - 1;
-        }
-        return normalise(top_word(x, up), top_word(y, up), top_word(z, up), ux, uy, uz);
+        const int up = detail::top_bits(x, y, z);
+        return normalise(detail::top_word(x, up), detail::top_word(y, up), detail::top_word(z, up), ux, uy, uz);
     }
     template <int F>
     static constexpr bool normalise(Wide<F, 32> x, Wide<F, 32> y, Wide<F, 32> z, Unit& ux, Unit& uy, Unit& uz)
@@ -245,21 +237,6 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
     QRAY_INLINE static constexpr int32_t shift_left(int32_t v, int by)
     {
         return by >= 0 ? static_cast<int32_t>(static_cast<uint32_t>(v) << by) : v >> -by;
-    }
-
-private:
-    static constexpr uint32_t high_magnitude(int64_t v)
-    {
-        const int32_t high = static_cast<int32_t>(v >> 32);
-        return static_cast<uint32_t>(high ^ (high >> 31));
-    }
-    // The upper 32 bits of v 2^up, for up in [0, 31]; all below 2^31 of v if that is 31.
-    static constexpr int32_t top_word(int64_t v, int up)
-    {
-        if constexpr (sizeof(void*) == 8)
-            return static_cast<int32_t>(static_cast<uint64_t>(v) << up >> 32);
-        const uint32_t high = static_cast<uint32_t>(static_cast<uint64_t>(v) >> 32), low = static_cast<uint32_t>(v);
-        return static_cast<int32_t>((high << up) | (low >> 1 >> (31 - up)));
     }
 };
 

@@ -69,7 +69,7 @@ QRAY_NOINLINE constexpr bool encloses(const Figure<Point<N>>& figure, const Ray<
 // not met in (0, limit].
 template <class N>
 QRAY_STAGE constexpr bool meets_plane(const Direction<N>& normal, const Point<N>& c, const Ray<N>& ray,
-                                     typename N::Length limit, typename N::Length& t)
+                                      typename N::Length limit, typename N::Length& t)
 {
     const auto den = dot<N>(ray.direction, normal);
     t = N::length_zero;
@@ -133,7 +133,7 @@ QRAY_INLINE constexpr const auto& known_normal(const S& s)
 // the same stack in turn.
 template <bool Enclosed, HasCorners S, class N, class... Own>
 QRAY_STAGE constexpr bool meets(const S& s, const Point<N>* points, const Ray<N>& ray, typename N::Length limit,
-                               typename N::Length& t, bool to_light, const Own&... own)
+                                typename N::Length& t, bool to_light, const Own&... own)
 {
     const Direction<N>& normal = known_normal(s, own...);
     auto end = limit;
@@ -200,7 +200,7 @@ QRAY_INLINE constexpr void surface_of(const S& s, const Corners<N>& corners, con
 // is free again where the blend is made unit.
 template <class N, HasCorners S>
 QRAY_STAGE constexpr bool corner_weights(const S& s, const Point<N>* points, const Ray<N>& ray,
-                                        typename N::Unit (&w)[3])
+                                         typename N::Unit (&w)[3])
 {
     const Figure<Point<N>> figure = s.figure(points);
     const Shear<N> shear(ray.direction);
@@ -212,7 +212,7 @@ QRAY_STAGE constexpr bool corner_weights(const S& s, const Point<N>* points, con
 // The blend of three normals by weights, made unit; false where that vanishes.
 template <class N, HasCorners S>
 QRAY_STAGE constexpr bool blended(const S& s, const Direction<N>* normals, const typename N::Unit (&w)[3],
-                                 Direction<N>& n)
+                                  Direction<N>& n)
 {
     const auto [a, b, c, count] = s.figure(normals);
     using Blend = Vec<typename N::Cosine>;
@@ -225,7 +225,7 @@ QRAY_STAGE constexpr bool blended(const S& s, const Direction<N>* normals, const
 template <HasCorners S, class N>
     requires S::is_smooth
 QRAY_STAGE constexpr Direction<N> shading_normal(const S& s, const Corners<N>& corners, const Ray<N>& ray,
-                                                const Direction<N>& g)
+                                                 const Direction<N>& g)
 {
     typename N::Unit w[3]{};
     Direction<N> n = g;

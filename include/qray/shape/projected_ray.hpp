@@ -1,5 +1,5 @@
 // A ray as seen along the axis in which its direction is largest, in integers of 32 bits: what a box or a triangle far
-// from it is turned ahead_of by, for two products each. It is two lines, y = y0 + s x and z = z0 + s' x, x being
+// from it is turned away by, for two products each. It is two lines, y = y0 + s x and z = z0 + s' x, x being
 // the coordinate along that axis and slopes at most 1, in Q14. Lengths are in steps of 1/512, of which a world
 // of +-62 has +-31744.
 //
