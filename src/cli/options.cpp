@@ -115,6 +115,10 @@ constexpr unsigned compile = static_cast<unsigned>(Command::compile);
 constexpr unsigned explain = static_cast<unsigned>(Command::explain);
 constexpr unsigned all = draw | compile | explain;
 
+constexpr scene::MovableSaid moving_help("what changes, in RAM: camera, or a list with commas, or all, of\n"
+                                         "                       ");
+constexpr scene::MovableSaid moving_expected("'camera', 'all', or of these some, with commas between: ");
+
 constexpr Option table[] = {
     {"-o", "FILE", draw, "the picture; '-' is standard output (default: SCENE.ppm in this folder)", "a name",
      [](Options& o, const char* v) { return *(o.output = v) != 0; }},
@@ -141,9 +145,7 @@ constexpr Option table[] = {
      }},
     {"--within", "BOX", all, "where things will be: a box around the scene, for its scale (x,y,z,x,y,z)",
      "two corners of a box, X,Y,Z,X,Y,Z", take_within},
-    {"--moving", "WHAT", compile,
-     "what changes, in RAM: camera, or a list with commas, or all, of\n                       " QRAY_MOVABLE_SAID,
-     "'camera', 'all', or of these some, with commas between: " QRAY_MOVABLE_SAID,
+    {"--moving", "WHAT", compile, moving_help.text, moving_expected.text,
      [](Options& o, const char* v) { return scene::read_moving(v, o.settings.moving); }},
     {"-j", "N", draw, "threads (default: one for each processor)", "a whole number from 1 to 256",
      [](Options& o, const char* v) { return whole(v, 1, max_threads, o.threads); }},

@@ -49,8 +49,29 @@ constexpr uint64_t with_followers(uint64_t moving)
     return all;
 }
 
-#define QRAY_MOVABLE_SAID \
-    "spheres, discs (planes too), cones (cylinders too), polygons, patches, lights, suns, panels, mattes (colours)"
+// A text, and behind it what can be named.
+template <size_t Size>
+struct MovableSaid {
+    char text[Size + 200] = {};
+
+    constexpr explicit MovableSaid(const char (&before)[Size])
+    {
+        size_t at = 0;
+        const auto put = [&](std::string_view part) {
+            for (const char c : part)
+                text[at++] = c;
+        };
+        put(before);
+        std::string_view between;
+        for (size_t i = 0; i < sizeof table_names / sizeof *table_names; i++)
+            if ((movable_tables >> i & 1) != 0) {
+                put(between);
+                put(table_names[i]);
+                between = ", ";
+            }
+        put(" (planes are discs, cylinders cones, mattes colours)");
+    }
+};
 
 // "spheres,lights", "camera", "all"; false where something else is named.
 constexpr bool read_moving(std::string_view text, uint64_t& moving)
