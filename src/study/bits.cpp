@@ -105,22 +105,18 @@ void print_list(int count, F f)
     putchar(']');
 }
 
-// The widths that a number system in fixed point has for this scene; false where that does not fit it.
+// The widths that a number system in fixed point has for this scene, and its name printed; false where it does not fit.
 template <class N>
-bool own_widths(cli::Number number, Widths& w)
+bool begin_number(cli::Number number, Widths& w)
 {
     scene::Error error;
-    if (!cli::renderers[static_cast<int>(number)]->build(description, options.settings, built, error))
+    if (!N::is_fixed || !cli::renderers[static_cast<int>(number)]->build(description, options.settings, built, error))
         return false;
     if constexpr (N::is_fixed)
         w = widths_of<N>(cli::storage_of<N>().exposure);
-    return N::is_fixed;
-}
-
-void print_name(cli::Number number)
-{
     printf("%s\"%s\": ", first_number ? "" : ", ", cli::number_names[static_cast<int>(number)]);
     first_number = false;
+    return true;
 }
 
 // What it reaches, and what its widths say: all steps rounded at once.
@@ -128,9 +124,8 @@ template <class N>
 void print_reached(cli::Number number)
 {
     Widths own;
-    if (!own_widths<N>(number, own))
+    if (!begin_number<N>(number, own))
         return;
-    print_name(number);
     print_list(2, [&](int i) { return i == 0 ? squares(*cli::renderers[static_cast<int>(number)]) : squares(own); });
 }
 
@@ -140,9 +135,8 @@ template <class N>
 void print_alone(cli::Number number)
 {
     Widths own;
-    if (!own_widths<N>(number, own))
+    if (!begin_number<N>(number, own))
         return;
-    print_name(number);
     for (int step = 0; step < steps; step++) {
         Squares at_own, at_fewer;
         int fewer = 0;
