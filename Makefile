@@ -17,7 +17,7 @@ PYTHON   := $(or $(wildcard /usr/bin/python3),python3) -B
 WARNINGS := -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Werror
 COMMON   := -std=c++20 $(WARNINGS) -ffp-contract=off -fno-math-errno -Iinclude -Isrc -MMD -MP
 PROGRAM  := -fno-exceptions -fno-rtti
-FLAGS    := $(COMMON) $(OPTIMISE) $(if $(NATIVE),-march=native -DQRAY_LANES=0)
+FLAGS     = $(COMMON) $(OPTIMISE) $(if $(NATIVE),-march=native -DQRAY_LANES=0)
 SANITIZE := $(COMMON) -g1 -Wno-maybe-uninitialized -fsanitize=address,undefined -fno-sanitize-recover=all
 
 all: build/qray
@@ -50,11 +50,12 @@ define IN_LANES
 	@$(CXX) -r -nostdlib -Wl,--force-group-allocation $(@:.o=.whole) -o $@
 	@objcopy --wildcard --keep-global-symbol='*_lanes_renderer*' $@
 endef
-$(LANED): USED = $(FLAGS) $(PROGRAM) -O3
+$(LANED): private OPTIMISE := $(OPTIMISE:-O2=-O3)
+$(LANED): USED = $(FLAGS) $(PROGRAM)
 $(LANED): build/obj/%.o: %.cpp build/obj/flags; $(IN_LANES)
 $(LANED:build/%=build/sanitized/%): USED = $(SANITIZE) -Og
 $(LANED:build/%=build/sanitized/%): build/sanitized/obj/%.o: %.cpp build/obj/flags; $(IN_LANES)
-build/obj/src/cli/observe.o: OPTIMISE := -O1 # draws one pixel
+build/obj/src/cli/observe.o: private OPTIMISE := $(OPTIMISE:-O2=-O1) # draws one pixel
 # Rewritten when the flags change, so that everything is compiled again.
 build/obj/flags: FORCE
 	@mkdir -p $(@D)
@@ -98,8 +99,9 @@ build/sanitized/tests/%: $(patsubst %,build/sanitized/obj/tests/%.o,% tracer tra
 build/sanitized/obj/src/%.o: src/%.cpp build/obj/flags
 	@echo "  compile $< with sanitizers"
 	@mkdir -p $(@D)
-	@$(CXX) $(SANITIZE) $(or $(FEW),-Og) -c $< -o $@
-build/sanitized/obj/src/cli/observe.o: FEW = $(HASTE)
+	@$(CXX) $(SANITIZE) $(SANITIZED_LEVEL) -c $< -o $@
+SANITIZED_LEVEL := -Og
+build/sanitized/obj/src/cli/observe.o: private SANITIZED_LEVEL = $(HASTE) # draws one pixel
 # To compile is what takes time; but for these, which compute much. Memory that is checked by calls takes a quarter less.
 LONG  := test_math test_parser tracer
 HASTE := -O0 $(if $(findstring clang,$(CXX)),-mllvm -,--param )asan-instrumentation-with-call-threshold=0
