@@ -335,8 +335,6 @@ TYPED_TEST(MovingTest, TurnsAreTurns)
     }
     const double drift = distance(value(now.centre), value(first.centre)) / std::fmax(make<N>::length_ulp(16), 0x1p-26);
     EXPECT_LE(drift, 1000);
-    if (const char* told = std::getenv("QRAY_TELL"); told != nullptr)
-        printf("drift in place: %.1f ulp\n", drift);
 }
 
 // A tree that was refitted tells no other shapes than none does.
