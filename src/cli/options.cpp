@@ -115,7 +115,7 @@ constexpr unsigned compile = static_cast<unsigned>(Command::compile);
 constexpr unsigned explain = static_cast<unsigned>(Command::explain);
 constexpr unsigned all = draw | compile | explain;
 
-constexpr scene::MovableSaid moving_help("what changes, in RAM: camera, or a list with commas, or all, of\n"
+constexpr scene::MovableSaid moving_help("what changes, in RAM: all, or a list with commas of camera,\n"
                                          "                       ");
 constexpr scene::MovableSaid moving_expected("'camera', 'all', or of these some, with commas between: ");
 

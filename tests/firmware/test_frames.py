@@ -91,10 +91,9 @@ class Frames(unittest.TestCase):
         self.assertNotEqual(status, 0)
         self.assertIn("usage", text)
 
-    # The page's own line draws; without its box the eye leaves the scene's, and what to do is said.
-    def test_the_line_of_the_page(self):
-        page = contents("src/firmware/animations/README.md").decode()
-        words = re.search(r"^    make (frames .*?)\s+#", page, re.M)[1].split()
+    # README's own line draws; without its box the eye leaves the scene's, and what to do is said.
+    def test_the_line_of_readme(self):
+        words = re.search(r"^    make (frames .*?)\s+#", contents("README.md").decode(), re.M)[1].split()
         self.assertEqual(make(*words, "SIZE=16x12")[0], 0)
         status, text = make(*(word for word in words if not word.startswith("WITHIN=")), "SIZE=16x12")
         self.assertNotEqual(status, 0)
