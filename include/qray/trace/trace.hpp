@@ -74,7 +74,7 @@ constexpr Rgb<N> trace(const Scene<N, E>& scene, EyeRay ray, Count& count, Sampl
         if (!nearest(scene, ray, hit)) {
             accumulate<N, E>(sum, scene.background, weight);
         } else {
-            const Surface<N> s = surface_at(scene, ray, hit);
+            Surface<N> s = surface_at(scene, ray, hit); // const, GCC would keep it in memory
             const uint32_t material = hit.tag.material();
             if constexpr (Explains<Count>)
                 count.hits(hit, s);
