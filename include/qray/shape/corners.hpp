@@ -224,7 +224,7 @@ QRAY_STAGE constexpr bool blended(const S& s, const Direction<N>* normals, const
 // The blend of a triangle's corner normals where the ray meets it; g where that vanishes.
 template <HasCorners S, class N>
     requires S::is_smooth
-QRAY_STAGE constexpr Direction<N> shading_normal(const S& s, const Corners<N>& corners, const Ray<N>& ray,
+QRAY_INLINE constexpr Direction<N> shading_normal(const S& s, const Corners<N>& corners, const Ray<N>& ray,
                                                  const Direction<N>& g)
 {
     typename N::Unit w[3]{};
