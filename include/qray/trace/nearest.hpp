@@ -75,7 +75,7 @@ QRAY_INLINE constexpr auto candidates_corners(const Scene<N, E>& scene)
 {
     if constexpr (E.tree && has_outlines<N>)
         return EnclosingCorners<N>{corners_of(scene)};
-    else if constexpr (E.flat_tree && E.moving && NarrowFixed<N>) // as of the triangles that stand still in little room
+    else if constexpr (E.flat_tree && E.moving && !WideFixed<N>) // as of the triangles that stand still in little room
         return OutlineCorners<N>{corners_of(scene)};
     else
         return corners_of(scene);
@@ -99,7 +99,7 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
         });
     } else if constexpr (E.flat_tree) {
         const RejectRay<N> reject(ray);
-        constexpr bool deep = E.triangle || E.smooth_triangle; // keep a normal
+        constexpr bool deep = E.triangle || E.smooth_triangle || E.moving; // keep a normal
         ProjectedRay projected = deep ? ProjectedRay::of(ray) : ProjectedRay(ray);
         walk(scene.entries.data, projected, limit,
              [&](Kind of_leaf, uint32_t first, uint32_t count) __attribute__((always_inline)) {
