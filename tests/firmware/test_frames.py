@@ -67,6 +67,15 @@ class Frames(unittest.TestCase):
                         self.drawn("run", f"BOARD={board}", f"ANIMATION={animation}", f"NUMBER={number}")
                         self.assertEqual(contents(f"build/{board}/moves-{animation}-{number}.ppm"), expected)
 
+    # Some triangles move, others are in little room: that compiles without a warning.
+    def test_beside_what_stands_still(self):
+        words = ["SCENE=scenes/patches.nff", "ANIMATION=mesh", "NUMBER=q32", "SIZE=16x12", "FRAMES=2"]
+        for command in ["frames"], ["run", "BOARD=mps2_an386"]:
+            status, text = make(*command, *words)
+            self.assertEqual(status, 0, text)
+        self.assertEqual(contents("build/mps2_an386/patches-mesh-q32.ppm"),
+                         contents("build/frames/patches-mesh-q32.ppm"))
+
     # A frame is the desktop's picture of the text with that frame's numbers.
     def test_frames_are_those_of_the_text(self):
         os.makedirs(os.path.dirname(SCENE), exist_ok=True)

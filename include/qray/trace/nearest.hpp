@@ -39,6 +39,10 @@ constexpr Kind last_kind()
     return last;
 }
 
+// Does it have triangles in little room?
+template <Effects E>
+inline constexpr bool has_lean = E.triangle || E.smooth_triangle;
+
 // Calls f(shape, kind, index), which returns a bool, for the shape of that kind and index.
 template <class N, Effects E, class F>
 QRAY_INLINE constexpr bool with_shape(const Scene<N, E>& scene, Kind kind, uint32_t index, F f)
@@ -99,7 +103,7 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
         });
     } else if constexpr (E.flat_tree) {
         const RejectRay<N> reject(ray);
-        constexpr bool deep = E.triangle || E.smooth_triangle || E.moving; // keep a normal
+        constexpr bool deep = has_lean<E> || E.moving; // a lean one keeps a normal
         ProjectedRay projected = deep ? ProjectedRay::of(ray) : ProjectedRay(ray);
         walk(scene.entries.data, projected, limit,
              [&](Kind of_leaf, uint32_t first, uint32_t count) __attribute__((always_inline)) {
@@ -204,7 +208,7 @@ QRAY_INLINE constexpr void keep_nearest(const Scene<N, E>& scene, const Ray<N>& 
 template <class N, Effects E>
 QRAY_INLINE constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit)
 {
-    if constexpr (E.tree || !N::is_fixed || (NarrowFixed<N> && has_wide_multiply))
+    if constexpr (E.tree || !N::is_fixed || ((NarrowFixed<N> || (E.moving && has_lean<E>)) && has_wide_multiply))
         hit = {}; // or the compiler warns that it may be used unset
     else if constexpr (E.flat_tree || sizeof(void*) == 8)
         hit.kind = {}; // likewise on a desktop, where the rest costs q32 0.8 % more instructions
