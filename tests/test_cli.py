@@ -623,7 +623,7 @@ class Builds(unittest.TestCase):
         return done.stdout
 
     def test_variants(self):
-        self.assertEqual(len(VARIANTS), 5)
+        self.assertEqual(len(VARIANTS), 4)
 
     # Fixed point by other compilers, at other levels, and with sanitizers that stop at the first fault.
     def test_same_bytes(self):

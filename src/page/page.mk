@@ -3,7 +3,10 @@
 # Debian's clang, with the headers of its libc++ and what is used of wasi-libc: arithmetic, numbers to text and back.
 WASM_INCLUDE := -nostdinc++ $(addprefix -isystem ,$(wildcard /usr/include/wasm32-wasi/c++/v1 \
     /usr/lib/llvm-*/include/wasm32-wasi/c++/v1) /usr/include/wasm32-wasi)
-WASM_CXX  = clang++ --target=wasm32-wasi -O2 -msimd128 $(COMMON) $(PROGRAM) -fno-threadsafe-statics $(WASM_INCLUDE)
+WASM_CXX  = clang++ --target=wasm32-wasi $(WASM_LEVEL) -msimd128 $(COMMON) $(PROGRAM) -fno-threadsafe-statics \
+    $(WASM_INCLUDE)
+WASM_LEVEL := -O2
+build/page/obj/cli/observe.o: private WASM_LEVEL := -O1 # draws one pixel
 WASM_LIBS = $(firstword $(wildcard /usr/lib/wasm32-wasi/libc++.a /usr/lib/llvm-*/lib/wasm32-wasi/libc++.a)) \
     $(addprefix /usr/lib/wasm32-wasi/,libc-printscan-long-double.a libc.a) \
     $(shell clang --print-resource-dir)/lib/wasi/libclang_rt.builtins-wasm32.a

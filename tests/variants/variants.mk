@@ -1,5 +1,5 @@
 # The same command with its fixed point made in other ways, for the test that their bytes are the same.
-VARIANTS := g++_-O0 g++_-O3_native clang++_-O0 clang++_-O2 clang++_-O3_native # '=' in a target is none to make
+VARIANTS := g++_-O0 g++_-O3_native clang++_-O0 clang++_-O3_native # '=' in a target is none to make
 FIXED    := $(patsubst src/cli/%.cpp,%.o,$(wildcard src/cli/kernel_q*.cpp))
 build/variants/%/qray: $(addprefix build/variants/%/,$(FIXED)) $(filter-out $(addprefix %/,$(FIXED)),$(PLAIN))
 	@$(CXX) $(STATIC) $^ -pthread -o $@
