@@ -53,7 +53,7 @@ endef
 $(LANED): private OPTIMISE := $(OPTIMISE:-O2=-O3)
 $(LANED): USED = $(FLAGS) $(PROGRAM)
 $(LANED): build/obj/%.o: %.cpp build/obj/flags; $(IN_LANES)
-$(LANED:build/%=build/sanitized/%): USED = $(SANITIZE) -Og
+$(LANED:build/%=build/sanitized/%): USED = $(SANITIZE) $(HASTE)
 $(LANED:build/%=build/sanitized/%): build/sanitized/obj/%.o: %.cpp build/obj/flags; $(IN_LANES)
 build/obj/src/cli/observe.o: private OPTIMISE := $(OPTIMISE:-O2=-O1) # draws one pixel
 # Rewritten when the flags change, so that everything is compiled again.
@@ -93,16 +93,18 @@ HAS_LANES := $(if $(LANES),$(shell grep -m1 -w avx2 /proc/cpuinfo 2> /dev/null))
 BESIDE    := $(if $(HAS_LANES),$(subst lanes_,kernel_,$(LANED)))
 build/sanitized/qray: $(patsubst build/%,build/sanitized/%,$(filter-out $(BESIDE),$(COMMAND))) $(BESIDE)
 	@$(CXX) -fsanitize=address,undefined $^ -pthread -o $@
-build/sanitized/tests/%: $(patsubst %,build/sanitized/obj/tests/%.o,% tracer tracer_flat) $(SANITIZED)
+build/sanitized/tests/%: build/sanitized/obj/tests/%.o build/sanitized/tests.a
 	@mkdir -p $(@D)
 	@$(CXX) -fsanitize=address,undefined $^ $(TEST_LIBS) -o $@
+build/sanitized/tests.a: $(patsubst %,build/sanitized/obj/tests/%.o,tracer tracer_flat) $(SANITIZED)
+	@rm -f $@ && ar rcsT $@ $^
 build/sanitized/obj/src/%.o: src/%.cpp build/obj/flags
 	@echo "  compile $< with sanitizers"
 	@mkdir -p $(@D)
 	@$(CXX) $(SANITIZE) $(SANITIZED_LEVEL) -c $< -o $@
 SANITIZED_LEVEL := -Og
-build/sanitized/obj/src/cli/observe.o: private SANITIZED_LEVEL = $(HASTE) # draws one pixel
-# To compile is what takes time; but for these, which compute much. Memory that is checked by calls takes a quarter less.
+build/sanitized/obj/src/cli/%.o: SANITIZED_LEVEL = $(HASTE)
+# To compile is what takes time, but for these and src/scene. Memory that is checked by calls takes a quarter less.
 LONG  := test_math test_parser tracer
 HASTE := -O0 $(if $(findstring clang,$(CXX)),-mllvm -,--param )asan-instrumentation-with-call-threshold=0
 build/sanitized/obj/tests/%.o: tests/%.cpp build/sanitized/obj/gtest.hpp.gch
@@ -136,8 +138,7 @@ deps:
 	    $$root env DEBIAN_FRONTEND=noninteractive apt-get -qq -y install --no-install-recommends $(PACKAGES) > /dev/null; }
 
 clean:; @rm -rf build
-help:
-	@sed -n 's/^#   make/make/p' $(MAKEFILE_LIST)
+help:; @sed -n 's/^#   make/make/p' $(MAKEFILE_LIST)
 
 # Firmware, measurements and long tests; what tests need is known only after these.
 include $(sort $(wildcard src/*/*.mk tests/*/*.mk))
