@@ -23,7 +23,6 @@ constexpr double light_off = 1.0 / 510, direction_off = 1.0 / 256, t_off = 1.0 /
 constexpr uint32_t columns = 120, deepest_indent = 16;
 
 bool off(const Vec3d& a, const Vec3d& b, double by) { return largest(a - b) > by; }
-Vec3d times(const Vec3d& a, const Vec3d& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 struct Line {
     char text[600] = {};
