@@ -237,12 +237,12 @@ class Compile(unittest.TestCase):
                          "2: warning: a lamp far outside of the scene: place() moves it, move() does not\n")
         self.assertEqual(self.said(ball, "spheres,cones"), " warning: there are no cones to be moved\n")
         self.assertEqual(self.said(ball, "cones,suns"),
-                         " warning: there are no cones to be moved; 2 such things in all\n")
+                         " warning: there are no cones to be moved; 2 warnings about '--moving' in all\n")
 
     # Every table that can be named stands in the help, and nothing else.
     def test_what_can_be_named(self):
         text = qray("compile", "-h").stdout.decode()
-        names = re.sub(r" \([^)]*\)", "", re.search(r"or all, of\s+(.*)", text)[1]).split(", ")
+        names = re.search(r"of: camera,\s+(.*)", text)[1].split(", ")
         ball = write("ball", VIEW + "s 0 0 0 1\n")
         for name in [*names, "camera", "all"]:
             self.assertEqual(qray("compile", ball, "--moving", name, "-q", "-o", "-").returncode, 0, name)

@@ -85,7 +85,7 @@ int build(const Options& options, const Renderer& renderer, Built& built, bool a
              {&description.passed_over, &description.clamped, &description.empty, &description.nonplanar})
             warn(options.scene, *w);
     warn(options.scene, built.lost);
-    warn(options.scene, built.unmoved, "such things");
+    warn(options.scene, built.unmoved, "warnings about '--moving'");
     return go_on;
 }
 

@@ -115,9 +115,10 @@ constexpr unsigned compile = static_cast<unsigned>(Command::compile);
 constexpr unsigned explain = static_cast<unsigned>(Command::explain);
 constexpr unsigned all = draw | compile | explain;
 
-constexpr scene::MovableSaid moving_help("what changes, in RAM: all, or a list with commas of camera,\n"
-                                         "                       ");
-constexpr scene::MovableSaid moving_expected("'camera', 'all', or of these some, with commas between: ");
+#define QRAY_NEXT_LINE "\n                        "
+constexpr scene::MovableSaid moving_help(
+    "what changes, in RAM: all, or a list, with commas, of: camera," QRAY_NEXT_LINE, QRAY_NEXT_LINE);
+constexpr scene::MovableSaid moving_expected("'all', or a list, with commas, of: camera, ");
 
 constexpr Option table[] = {
     {"-o", "FILE", draw, "the picture; '-' is standard output (default: SCENE.ppm in this folder)", "a name",
@@ -133,7 +134,8 @@ constexpr Option table[] = {
      QRAY_NUMBERS_SAID ", or two of them with a comma between", take_numbers},
     {"-r", "N", all, "samples a pixel: 1, 4, 9, 16 and so on (default: 1)", "a square number from 1 to 4096",
      take_samples},
-    {"-a", "LEVELS[,T]", all, "adaptive sampling: 1 to 6 levels, threshold 0 to 1 (default: 0.0625)",
+    {"-a", "LEVELS[,T]", all,
+     "adaptive sampling instead (default: off): 1 to 6 levels; threshold 0 to 1 (default: 0.0625)",
      "LEVELS or LEVELS,THRESHOLD, from 1 to 6 and from 0 to 1", take_adaptive},
     {"-d", "N", all, "depth of mirrored and refracted rays (default: 5)", "a whole number from 1 to 64",
      [](Options& o, const char* v) { return whole(v, 1, scene::Settings::max_depth, o.settings.depth); }},

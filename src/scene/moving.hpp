@@ -54,7 +54,7 @@ template <size_t Size>
 struct MovableSaid {
     char text[Size + 200] = {};
 
-    constexpr explicit MovableSaid(const char (&before)[Size])
+    constexpr explicit MovableSaid(const char (&before)[Size], std::string_view gap = " ")
     {
         size_t at = 0;
         const auto put = [&](std::string_view part) {
@@ -69,7 +69,8 @@ struct MovableSaid {
                 put(table_names[i]);
                 between = ", ";
             }
-        put(" (planes are discs, cylinders cones, mattes colours)");
+        put(gap);
+        put("(planes are discs, cylinders cones, mattes colours)");
     }
 };
 
