@@ -155,6 +155,7 @@ def main():
                 fail(f"{args.image}: {report['stack']} bytes of stack, above the bound of {bound}")
     report["stack_bound"] = bound
     report["flash_total"], report["ram_total"] = sizes["flash_total"], sizes["ram_total"]
+    report["must fit"] = "flash, and ram + stack_bound; the totals have what only QEMU needs, too"
     if args.qemu:
         report["pixels"] = pixels
         if args.rays:
