@@ -365,12 +365,16 @@ def table(plan, frontier, chosen):
         print(f"without {n}: {why}")
     if not frontier:
         return
+    dear = [n for n in runs.numbers() if n not in plan.refused and n not in {s.number for s in frontier}]
+    if dear:
+        print(f"without {', '.join(dear)}: other number systems have what is as accurate, to {LEAST_GAIN} dB, for less")
+    drawn, whole = plan.pixels.count * head["length"], head["width"] * head["height"]
+    doubt = max(abs(plan.pixels.decibels(s, d) - plan.pixels.decibels(s)) for s in frontier for d in (-1, 1))
     print(f"dB: against `build/qray {q.scene} {' '.join(pictures.words(BETTER))} -s {plan.size}`, by "
-          f"{plan.pixels.count * head['length']} of {head['width'] * head['height']} pixels, surely to "
-          f"{max(abs(plan.pixels.decibels(s, d) - plan.pixels.decibels(s)) for s in frontier for d in (-1, 1)):.1f}; "
-          "99 is no difference")
-    print("FLIP and seen: against the whole of it, the mean and the share of pixels where an eye sees a difference"
-          + ("" if any("flip" in of for of in plan.pixels.seen.values()) else "; it would take too long to draw"))
+          + (f"{drawn} of its {whole} pixels, of which all may say {doubt:.1f} dB more or less" if drawn < whole
+             else "all its pixels") + "; 99 is no difference")
+    print("FLIP, seen: its mean, and the share of pixels where an eye sees a difference, against that picture"
+          + ("" if any("flip" in of for of in plan.pixels.seen.values()) else ", which would take too long to draw"))
     if q.mhz:
         known = ", ".join(f"{n} {c:.2f}" for n, c in plan.cycles.items() if n in [s.number for s in frontier])
         known = known and f"by the core's timings ({known}), "
@@ -389,6 +393,9 @@ def table(plan, frontier, chosen):
         print(f"{'*' if s == chosen else ' '} {s.number:7}{samples:>18}{s.depth:>6}{'' if built else '~':>2}"
               f"{plan.instructions(s):14.0f}{seconds:>10}{plan.pixels.decibels(s):7.1f}"
               f"{eye[0]:>7}{eye[1]:>7}{sizes[0]:>8}{sizes[1]:>7}{sizes[2]:>7}")
+    if chosen:
+        print("*: " + (f"the cheapest that has {q.decibels:.1f} dB" + f" within {q.seconds:g} s" * bool(q.seconds)
+                       if q.decibels else f"the most accurate within {q.seconds:g} s"))
     if rough:
         print("~: there was no time to build it; asked again, it will be")
 
