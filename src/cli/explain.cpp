@@ -56,8 +56,9 @@ public:
         drawing(first);
         if (b != nullptr) {
             drawing(*beside);
-            out.print("'!' marks where they part: what is hit, what blocks, t by 1/1000, directions by 1/256, light by "
-                      "half a level.\n");
+            out.print("'!' marks where they part: what is hit, what blocks, t by 1/1000 of itself, directions by "
+                      "1/256, light by half a\nlevel. Lines without it have the numbers of %s.\n",
+                      first.name);
             uint32_t shared = 0;
             for (const Explanation::Sample& s : samples(a))
                 shared += find(*b, s) != nullptr;
