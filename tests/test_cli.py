@@ -94,6 +94,8 @@ class Options(Cli):
             for text in ("usage: qray [options] SCENE", "example: qray scenes/showcase.nff ", "-o ", "-s ", "-n ",
                          "-r ", "-a ", "-d ", "--cutoff ", "-j ", "--stats", "-q ", "-h", "--version"):
                 self.assertIn(text, out.decode())
+        for command in ([], ["compile"], ["explain"]):
+            _, out, _ = self.run_qray(*command, "-h")
             self.assertLessEqual(max(map(len, out.decode().splitlines())), 100)
         self.assertEqual(os.listdir(), ["ok.nff"])
 
