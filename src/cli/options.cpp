@@ -130,7 +130,7 @@ constexpr Option table[] = {
     {"-s", "WxH", all, "size in pixels (default: the scene's own)", "WIDTHxHEIGHT, each from 1 to 32768", take_size},
     {"-n", "NUMBER", draw | compile, "number system: " QRAY_NUMBERS_SAID " (default: q32)", QRAY_NUMBERS_SAID,
      take_number},
-    {"-n", "NUMBER", explain, QRAY_NUMBERS_SAID " (default: q32), or two to be compared, as q16,double",
+    {"-n", "NUMBER", explain, QRAY_NUMBERS_SAID " (default: q32); two to compare: q16,double",
      QRAY_NUMBERS_SAID ", or two of them with a comma between", take_numbers},
     {"-r", "N", all, "samples a pixel: 1, 4, 9, 16 and so on (default: 1)", "a square number from 1 to 4096",
      take_samples},
