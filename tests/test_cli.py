@@ -126,8 +126,8 @@ class Options(Cli):
         self.fails(2, f"qray: '{option}' is followed by nothing; expected ", "compile", "ok.nff", option)
         for value in ["", "x", "sphere", "Camera", "camera,", ",camera", "camera,,spheres", "spheres lights", "all,x",
                       "vertices", "entries", "triangles", "spheres,smooth_triangles", "texels", "highlights", " all"]:
-            self.fails(2, f"qray: '{option} {re.escape(value)}': expected 'all', or a list, with commas, of: camera, ", "compile",
-                       "ok.nff", option, value)
+            self.fails(2, f"qray: '{option} {re.escape(value)}': expected 'all', or a list, with commas, of: camera, ",
+                       "compile", "ok.nff", option, value)
 
     def test_unknown(self):
         for option in ("-x", "--statistics", "--cut", "--cutoff5", "-qs", "-q1", "--version=1", "---"):

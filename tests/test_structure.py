@@ -40,6 +40,9 @@ ALLOWED = re.compile(r"memcpy|memset|memmove|_GLOBAL_OFFSET_TABLE_"
                      r"|__(mul|div|udiv|mod|umod|divmod|udivmod|ash[lr]|lshr|clz|ctz|popcount|fix|float)"
                      r"\w*[sdt][ifx]\w*\d?$")
 
+# Of files of which no line is wider than a window.
+ENDINGS = (".hpp", ".cpp", ".h", ".py", ".mk", ".ld", ".css", ".html", ".js")
+
 results = []
 
 
@@ -113,7 +116,7 @@ def test_lengths():
     """No line is wider than a window, and no file longer than one reads in one go."""
     counts, wide = {}, []
     for folder, _, files in (step for top in ("include", "src", "tests") for step in os.walk(os.path.join(ROOT, top))):
-        for path in (os.path.join(folder, f) for f in files if f.endswith((".hpp", ".cpp", ".py", ".mk"))):
+        for path in (os.path.join(folder, f) for f in files if f.endswith(ENDINGS)):
             with open(path, encoding="utf-8") as file:
                 lines = file.read().split("\n")
             name = os.path.relpath(path, ROOT)
