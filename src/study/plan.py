@@ -394,8 +394,8 @@ def table(plan, frontier, chosen):
               f"{plan.instructions(s):14.0f}{seconds:>10}{plan.pixels.decibels(s):7.1f}"
               f"{eye[0]:>7}{eye[1]:>7}{sizes[0]:>8}{sizes[1]:>7}{sizes[2]:>7}")
     if chosen:
-        print("*: " + (f"the cheapest that has {q.decibels:.1f} dB" + f" within {q.seconds:g} s" * bool(q.seconds)
-                       if q.decibels else f"the most accurate within {q.seconds:g} s"))
+        within = f" within {q.seconds:g} s" if q.seconds else ""
+        print("*: the " + (f"cheapest that has {q.decibels:.1f} dB" if q.decibels else "most accurate") + within)
     if rough:
         print("~: there was no time to build it; asked again, it will be")
 
