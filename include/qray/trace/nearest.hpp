@@ -15,7 +15,6 @@ QRAY_INLINE constexpr void for_each_shape(const Scene<N, E>& scene, F f)
             return;
 #define QRAY_ASK_EACH(Type, name, table) \
     if constexpr (E.name) { \
-        static_assert(ShapeIn<Type<N>, N>); \
         if constexpr (Type<N>::is_short) { \
             QRAY_UNROLL \
             QRAY_ASK(table, Kind::name) \
@@ -48,9 +47,11 @@ template <class N, Effects E, class F>
 QRAY_INLINE constexpr bool with_shape(const Scene<N, E>& scene, Kind kind, uint32_t index, F f)
 {
 #define QRAY_ASK(Type, name, table) \
-    if constexpr (E.name) \
+    if constexpr (E.name) { \
+        static_assert(ShapeIn<Type<N>, N>); \
         if (last_kind<E>() == Kind::name || kind == Kind::name) \
-            return f(scene.table.at(index), Kind::name, index);
+            return f(scene.table.at(index), Kind::name, index); \
+    }
     QRAY_SHAPES(QRAY_ASK)
 #undef QRAY_ASK
     return false;
