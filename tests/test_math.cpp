@@ -82,6 +82,12 @@ TEST(Math, RootOf32BitsIsNearest) {
     EXPECT_EQ(isqrt(uint32_t{0}), 0u);
 }
 
+// 1 / sqrt(x), of which the tracer's roots are made; x = 0 is taken for 1.
+Scaled rsqrt(uint64_t x) {
+    const detail::Normal v = detail::normalise_even(x);
+    return {detail::rsqrt_mantissa(v.high, v.low), v.half - 63};
+}
+
 void expect_inverse_root(uint64_t x) {
     const Scaled r = rsqrt(x);
     ASSERT_GE(r.mantissa, 0x80000000u) << x;

@@ -199,13 +199,6 @@ constexpr uint32_t isqrt(uint32_t x)
     return root;
 }
 
-// 1 / sqrt(x), relative error at most 2^-31.7 (1.2 ulp of the mantissa). x = 0 is taken for 1.
-constexpr Scaled rsqrt(uint64_t x)
-{
-    const detail::Normal v = detail::normalise_even(x);
-    return {detail::rsqrt_mantissa(v.high, v.low), v.half - 63};
-}
-
 namespace detail {
 
 // x m / 2^(32 + halve) to the nearest, for m >= 2^31 and halve 0 or 1.
