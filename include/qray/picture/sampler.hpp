@@ -66,8 +66,12 @@ template <class N, Effects E, class Count, class... Place>
 constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, Count& count, Place... place)
 {
     Rgb<N> c{}; // set apart: with its initialisation the M3 spills more registers
-    Ray<N> ray = eye_ray(scene, at);
-    c = trace<N, E, Ray<N>&>(scene, ray, count, place...);
+    if constexpr (E.flat_tree) { // where the stack is deepest, the ray is not kept twice
+        Ray<N> ray = eye_ray(scene, at);
+        c = trace<N, E, Ray<N>&>(scene, ray, count, place...);
+    } else {
+        c = trace(scene, eye_ray(scene, at), count, place...);
+    }
     if constexpr (Explains<Count>)
         count.comes_back(c);
     return {Sample<N>::clamped(c.x, scene.exposure), Sample<N>::clamped(c.y, scene.exposure),
