@@ -6,7 +6,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifdef __SANITIZE_ADDRESS__ // each copy would be checked, and compiled, once more: that takes twice the time
+#define QRAY_INLINE inline
+#else
 #define QRAY_INLINE inline __attribute__((always_inline))
+#endif
 #define QRAY_NOINLINE __attribute__((noinline))
 // One copy where flash is scarce; elsewhere the compiler decides.
 #if defined(__ARM_ARCH_6M__)
