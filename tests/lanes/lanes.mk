@@ -2,7 +2,8 @@
 # with sanitizers, hostile scenes too.
 LANE_TESTS := $(addprefix build/lanes/,test_lanes test_vec test_hostile test_tree) \
     $(addprefix build/sanitized/lanes/,test_lanes test_hard_bounds test_fuzz_corpus)
-TESTS += $(if $(HAS_LANES),$(LANE_TESTS))
+# First: the longest would run alone at the end.
+TESTS := $(if $(HAS_LANES),$(LANE_TESTS)) $(TESTS)
 
 build/lanes/%: build/obj/lanes/%.o build/obj/lanes/tracer.o $(LIBRARY)
 	@mkdir -p $(@D)
