@@ -250,7 +250,8 @@ class Compile(unittest.TestCase):
             made = qray("compile", ball, "--moving", name, "-o", "-")
             self.assertEqual((made.returncode, made.stderr.count(b"\n")), (2, 1), name)
             self.assertIn(", ".join(names[:1]), made.stderr.decode())
-        self.assertEqual(len(names), 9)
+        self.assertLessEqual({"spheres", "discs", "cones", "polygons", "patches", "mattes", "lights", "suns", "panels"},
+                             set(names))
 
     # Where the camera is in RAM a row steps from pixel to pixel; pixels are made one by one.
     def test_rows_of_what_moves_are_its_pixels(self):
