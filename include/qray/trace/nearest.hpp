@@ -209,10 +209,12 @@ QRAY_INLINE constexpr void keep_nearest(const Scene<N, E>& scene, const Ray<N>& 
 template <class N, Effects E>
 QRAY_INLINE constexpr bool nearest(const Scene<N, E>& scene, const Ray<N>& ray, Hit<N>& hit)
 {
-    if constexpr (E.tree || !N::is_fixed || ((NarrowFixed<N> || (E.moving && has_lean<E>)) && has_wide_multiply))
+    if constexpr (E.tree || !N::is_fixed || (NarrowFixed<N> && has_wide_multiply))
         hit = {}; // or the compiler warns that it may be used unset
     else if constexpr (E.flat_tree || sizeof(void*) == 8)
         hit.kind = {}; // likewise on a desktop, where the rest costs q32 0.8 % more instructions
+    if constexpr (E.moving && has_lean<E> && WideFixed<N> && has_wide_multiply)
+        hit.local.near.x = hit.local.near.y = {}; // likewise
     hit.t = N::length_max;
     hit.tag = {Tag::none};
     for_each_candidate<true>(scene, ray, [&hit] { return hit.t; },
