@@ -88,6 +88,22 @@ TYPED_TEST(ConeTest, LimitIsKept)
     EXPECT_FALSE(s.hit(M::ray({5, 0, 0}, {1, 0, 0}), limit, t)); // behind
 }
 
+// Among what is met at one distance the first in the file is taken, in whatever order it is asked: so what is met at t
+// is met where t is the limit, too. Here by fractions of an ulp behind 4.
+TYPED_TEST(ConeTest, WhatIsMetAtTheLimitIsMet)
+{
+    QRAY_SHAPE_TEST;
+    for (int i = 0; i < 64; i++) {
+        const ConeOf<N> s({0, -1, 0}, 1 - std::ldexp(i, -21), {0, 1, 0}, 1 - std::ldexp(i, -21));
+        const auto ray = M::ray({-5, 0, 0}, {1, 0, 0});
+        ASSERT_TRUE(s.hit(ray, limit, t)) << i;
+        typename N::Length again{};
+        ASSERT_TRUE(s.hit(ray, t, again)) << i;
+        EXPECT_EQ(value(again), value(t)) << i;
+        EXPECT_FALSE(s.hit(ray, t - N::ulp, again)) << i;
+    }
+}
+
 // The crossings of the surface that the fields state, of the ray as it is.
 struct Roots {
     int count = 0;

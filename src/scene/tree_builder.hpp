@@ -10,7 +10,7 @@ namespace qray::scene {
 // numbers, which trees and shapes read alike. Shown here: where a shape reports a hit at t, there is a t' no farther
 // from t than hit_slack where the line is in the shape's box but for box_slack less 4.7e-5, which is what tree.hpp may
 // be off by; flat_tree.hpp has slack of its own. Points are within 62 of the middle, so that lengths are at most 124; u
-// = 2^-24. In q32, q16 and float (in double all is less than in float):
+// = 2^-24. In q32, q16 and float (in double all is less than in float, in q24 less than in q16):
 //
 // Disc. In fixed point n.(c - o) and n.d are exact, and their quotient is off by 2^-25; in q16 by 2^-14 of it and
 // 2^-11, 0.0081. So is the point at t off the plane; from the centre it is no farther than the radius and the roundings
@@ -30,9 +30,10 @@ namespace qray::scene {
 // Polygon, patch, triangle. In fixed point the line does pass through the corners' hull, at a t' where it is above the
 // plane by what the corners are: these and their normal are rounded, by sqrt(3) (2^-24 + 124 2^-31) = 2.1e-7 together,
 // in q16 0.0084. With c = |n.d| the plane is met no farther from t' than that, and what t is off by, over c: 0.0069 for
-// c >= 2^-15, in q16 0.0084/c + 0.0081 = 0.15 for c >= 1/16. In float outlines are off by 2e-5, and t by 7.1e-5/c:
-// 0.0625 for c >= 1.2e-3. What is flatter is met somewhere between its nearest and its farthest corner; none of 10^7
-// hostile rays, a quarter of them along an axis, told that from a tree (make soak-trees). Of corners that are
+// c >= 2^-15, in q16 0.0084/c + 0.0081 = 0.15 for c >= 1/16. In q24 it is 1.3e-4 for the corners and the normal, 6e-6
+// for n.(c - o) and 4.5e-5 for n.d, over c, and 2^-16: 0.19 for c >= 2^-10. In float outlines are off by 2e-5, and t by
+// 7.1e-5/c: 0.0625 for c >= 1.2e-3. What is flatter is met somewhere between its nearest and its farthest corner; none
+// of 10^7 hostile rays, a quarter of them along an axis, told that from a tree (make soak-trees). Of corners that are
 // off their plane in the text see reach_beside().
 template <class N>
 inline constexpr double box_slack = NarrowFixed<N> ? 1.0 / 16 : 0x1p-13;

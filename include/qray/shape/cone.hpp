@@ -206,6 +206,11 @@ struct Lengthened {
     {
         return {(l.raw + (1 << lengths >> 1)) >> lengths};
     }
+    // The longest that is rounded to l.
+    static constexpr typename L::Length longest(typename N::Length l)
+    {
+        return {length(l).raw + (1 << lengths >> 1) - 1};
+    }
     static constexpr typename N::Unit shorter(typename L::Unit u) { return {(u.raw + (1 << units >> 1)) >> units}; }
 };
 
@@ -216,7 +221,7 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
     using Long = Lengthened<N>;
     typename Long::L::Length both[2]{}, from_near[2]{};
     Local<typename Long::L> at{};
-    const int found = meetings(Long::cone(s), Long::ray(ray), Long::length(limit), both, at, from_near);
+    const int found = meetings(Long::cone(s), Long::ray(ray), Long::longest(limit), both, at, from_near);
     local.near = {{at.near.x.raw}, {at.near.y.raw}, {at.near.z.raw}};
     int n = 0;
     for (int i = 0; i < found; i++) {
