@@ -222,6 +222,8 @@ constexpr int meetings(const Cone<N>& s, const Ray<N>& ray, typename N::Length l
     typename Long::L::Length both[2]{}, from_near[2]{};
     Local<typename Long::L> at{};
     const int found = meetings(Long::cone(s), Long::ray(ray), Long::longest(limit), both, at, from_near);
+    if (found == 0)
+        return 0;
     local.near = {{at.near.x.raw}, {at.near.y.raw}, {at.near.z.raw}};
     int n = 0;
     for (int i = 0; i < found; i++) {
