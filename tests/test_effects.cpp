@@ -141,7 +141,7 @@ template <class S, class N>
     requires std::is_base_of_v<Asked, S>
 bool move(const S&, const Corners<N>&, const Motion<N>&, S&, const MovedCorners<N>&);
 template <class N>
-Box<N> box_of(const Asked&, const Corners<N>&);
+BoundingBox<N> box_of(const Asked&, const Corners<N>&);
 
 struct Whole : Asked {
     static constexpr bool has_corners = false, keeps_local = false, is_smooth = false, is_short = false;

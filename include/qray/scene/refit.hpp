@@ -12,7 +12,7 @@ template <class N>
 struct StepBox {
     int32_t low[3], high[3];
 
-    static constexpr StepBox around(const Box<N>& box)
+    static constexpr StepBox around(const BoundingBox<N>& box)
     {
         constexpr int32_t slack = TreeEntry<N>::slack;
         return {{steps(box.low.x) - slack, steps(box.low.y) - slack, steps(box.low.z) - slack},
@@ -58,7 +58,7 @@ private:
 };
 
 template <class N, Effects E>
-constexpr Box<N> box_of(const Scene<N, E>& scene, Kind kind, uint32_t index)
+constexpr BoundingBox<N> box_of(const Scene<N, E>& scene, Kind kind, uint32_t index)
 {
 #define QRAY_BOX(Type, name, table) \
     if constexpr (E.name) \
@@ -78,21 +78,21 @@ template <class N, Effects E>
     requires(E.flat_tree)
 constexpr void refit(const Scene<N, E>& scene, TreeEntry<N>* entries)
 {
-    using Box = detail::StepBox<N>;
+    using OnGrid = detail::StepBox<N>;
     for (uint32_t i = scene.entries.count; i-- != 0;) { // what is below an entry stands behind it
         TreeEntry<N>& e = entries[i];
         if (e.link == TreeEntry<N>::last)
             continue;
         if (e.is_leaf()) {
             const uint32_t first = e.first();
-            Box box = Box::around(detail::box_of(scene, e.kind(), first));
+            OnGrid box = OnGrid::around(detail::box_of(scene, e.kind(), first));
             for (uint32_t k = 1; k < e.count(); k++)
-                box.add(Box::around(detail::box_of(scene, e.kind(), first + k)));
+                box.add(OnGrid::around(detail::box_of(scene, e.kind(), first + k)));
             box.put(e);
         } else {
-            Box box = Box::of(entries[i + 1]);
+            OnGrid box = OnGrid::of(entries[i + 1]);
             for (uint32_t k = i + 1; k < i + e.link; k += entries[k].is_leaf() ? 1 : entries[k].link)
-                box.add(Box::of(entries[k]));
+                box.add(OnGrid::of(entries[k]));
             box.put(e);
         }
     }

@@ -346,11 +346,11 @@ constexpr bool move(const Cone<N>& from, const Corners<N>&, const Motion<N>& mot
 }
 
 template <class N>
-constexpr Box<N> box_of(const Cone<N>& s, const Corners<N>&)
+constexpr BoundingBox<N> box_of(const Cone<N>& s, const Corners<N>&)
 {
     // One that is all but a disc is met beside its rims, within sqrt(2) bounds: see src/scene/tree_builder.hpp.
     const auto bound = N::coarse_above(s.bound, s.fine);
-    return Box<N>::ball(s.middle, bound + N::length(bound * N::fraction(1, 2)));
+    return BoundingBox<N>::ball(s.middle, bound + N::length(bound * N::fraction(1, 2)));
 }
 
 } // namespace qray

@@ -268,10 +268,10 @@ constexpr bool move(const S& from, const Corners<N>& corners, const Motion<N>& m
 }
 
 template <HasCorners S, class N>
-constexpr Box<N> box_of(const S& s, const Corners<N>& corners)
+constexpr BoundingBox<N> box_of(const S& s, const Corners<N>& corners)
 {
     const Figure<Point<N>> figure = s.figure(corners.points);
-    Box<N> box{*figure.first, *figure.first};
+    BoundingBox<N> box{*figure.first, *figure.first};
     for (uint32_t i = 1; i < figure.count; i++)
         box.add(figure[i], figure[i]);
     // As reach_beside() of src/scene/shape/corners.hpp: how far beside corners off its plane a flat ray may meet it.
@@ -304,7 +304,7 @@ constexpr bool reaches(const S& s, const Corners<N>& corners, const Ray<N>& ray,
     else
         slack = N::fraction(1, 1 << 14);
     const Point<N> wider{slack, slack, slack};
-    Box<N> box = box_of(s, corners);
+    BoundingBox<N> box = box_of(s, corners);
     box = {box.low - wider, box.high + wider};
     return box.holds(ray.origin + along<N>(distance, ray.direction));
 }

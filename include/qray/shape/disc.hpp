@@ -75,7 +75,7 @@ constexpr bool move(const Disc<N>& from, const Corners<N>&, const Motion<N>& mot
 }
 
 template <class N>
-constexpr Box<N> box_of(const Disc<N>& s, const Corners<N>&)
+constexpr BoundingBox<N> box_of(const Disc<N>& s, const Corners<N>&)
 {
     const auto side = [&s](auto a, auto b) { // some steps more than the root's and the product's roundings
         return N::length(s.radius * N::sqrt_unit(a * a + b * b)) + N::ulp + N::ulp + N::ulp + N::ulp;

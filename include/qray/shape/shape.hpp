@@ -56,10 +56,10 @@ struct MovedCorners {
 };
 
 template <class N>
-struct Box {
+struct BoundingBox {
     Point<N> low, high;
 
-    static constexpr Box ball(const Point<N>& centre, typename N::Length radius)
+    static constexpr BoundingBox ball(const Point<N>& centre, typename N::Length radius)
     {
         const Point<N> r{radius, radius, radius};
         return {centre - r, centre + r};
@@ -123,7 +123,7 @@ concept ShapeIn = requires(const S& shape, const Corners<N>& corners, const Ray<
     { crossings<true>(shape, corners, ray, t) } -> Is<int>;
     { surface_of(shape, corners, ray, t, local, point, normal) } -> Is<void>;
     { move(shape, corners, motion, moved, moved_corners) } -> Is<bool>;
-    { box_of(shape, corners) } -> Is<Box<N>>;
+    { box_of(shape, corners) } -> Is<BoundingBox<N>>;
     requires !S::has_corners || requires { { normal_of(shape, corners) } -> Is<Direction<N>>; };
     requires !S::is_smooth || requires { { shading_normal(shape, corners, ray, normal) } -> Is<Direction<N>>; };
 };

@@ -193,9 +193,9 @@ constexpr bool place(Sphere<N>& sphere, const Frame<N>& frame, const ScenePoint<
 }
 
 template <class N>
-constexpr Box<N> box_of(const Sphere<N>& s, const Corners<N>&)
+constexpr BoundingBox<N> box_of(const Sphere<N>& s, const Corners<N>&)
 {
-    return Box<N>::ball(s.centre, N::coarse_above(s.radius, s.fine));
+    return BoundingBox<N>::ball(s.centre, N::coarse_above(s.radius, s.fine));
 }
 
 } // namespace qray
