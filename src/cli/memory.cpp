@@ -37,7 +37,6 @@ bool grow_room(scene::Room& room, size_t size)
                                            : mremap(room.at, room.size, size, MREMAP_MAYMOVE);
     if (pages == MAP_FAILED)
         return false;
-    madvise(pages, size, MADV_HUGEPAGE); // or a tree's walk waits for where its pages are
     room = {static_cast<uint8_t*>(pages), size};
     return true;
 }
