@@ -105,7 +105,7 @@ build/sanitized/obj/src/%.o: src/%.cpp build/obj/flags
 SANITIZED_LEVEL := -Og
 build/sanitized/obj/src/cli/%.o: SANITIZED_LEVEL = $(HASTE)
 # To compile is what takes time, but for these and src/scene. Memory that is checked by calls takes a quarter less.
-LONG  := test_math test_parser tracer
+LONG  := test_hard_bounds test_math test_meshes test_parser test_reject test_tree tracer
 HASTE := -O0 $(if $(findstring clang,$(CXX)),-mllvm -,--param )asan-instrumentation-with-call-threshold=0
 build/sanitized/obj/tests/%.o: tests/%.cpp build/sanitized/obj/gtest.hpp.gch
 	@echo "  compile $< with sanitizers"
