@@ -36,9 +36,9 @@ QRAY_INLINE constexpr Surface<N> surface_at(const Scene<N, E>& scene, const Ray<
     const bool turned = n_d > N::zero;
     if constexpr (keeps_step<N>) {
         const Direction<N> to_viewer = turned ? -n : n;
-        return {q, parts_of(g), to_viewer, turned ? -n_d : n_d, turned, step_off<N>(q, to_viewer, true)};
+        return {q, g, to_viewer, turned ? -n_d : n_d, turned, step_off<N>(q, to_viewer, true)};
     } else {
-        return {q, parts_of(g), turned ? -n : n, turned ? -n_d : n_d, turned};
+        return {q, g, turned ? -n : n, turned ? -n_d : n_d, turned};
     }
 }
 
