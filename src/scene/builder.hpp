@@ -119,10 +119,10 @@ public:
     // A triangle in little room, where a tree finds it and it fits; see lean.hpp.
     template <class T>
     bool push_lean(Array<T>& table, const Point<N>* corners, const Direction<N>* normals, const Direction<N>& g,
-                   uint32_t place, uint32_t fill)
+                   uint32_t place, const Object& o)
     {
-        const bool moves = (settings.moving & bit_of(T::is_smooth ? TableId::patches : TableId::polygons)) != 0;
-        return flat && !moves && LeanBuilder<N>{s}.push(table, corners, normals, g, place, fill);
+        const bool moves = (settings.moving & bit_of(o.kind)) != 0;
+        return flat && !moves && LeanBuilder<N>{s}.push(table, corners, normals, g, place, o.fill);
     }
 
     // The number of the first of some corners, now in the scene's vertices.
@@ -176,9 +176,7 @@ private:
                 return false;
             }
             for (uint32_t i = 0; i < d.fill_count; i++)
-                if (const Texture& t = d.fills[i].texture;
-                    t.kind != TextureKind::none && t.kind != TextureKind::globe
-                    && t.size < Limits::narrow_cell * step) {
+                if (const Texture& t = d.fills[i].texture; t.size < Limits::narrow_cell * step) {
                     snprintf(error.text, sizeof error.text,
                              "%s has lengths in steps of %.3g here, and a texture's size of %.3g is less than "
                              "1/%.0f of one; expected a larger one, or another number system",

@@ -50,7 +50,7 @@ struct View {
 struct Texture {
     TextureKind kind = TextureKind::none;
     Vec3d colour;    // N, the texture's own colour
-    double size = 1; // > 0
+    double size = HUGE_VAL; // > 0; of a globe, and of none, without end
     Vec3d axis;      // as given, not normalised, of those that have one; else zero
     Vec3d at;        // an image's corner, a globe's centre
     Vec3d u, v;      // edges of an image; its size is the shorter
@@ -137,8 +137,8 @@ struct Error {
 
 // An object by what it is sorted by.
 struct SortedObject {
+    uint32_t group, index;
     double x, y, z;
-    uint32_t index;
 };
 
 struct Description {

@@ -23,7 +23,7 @@ struct Steps {
     static constexpr double picture = ShortFixed<N> ? 300 : N::is_fixed ? 6144 : single ? 2048 : 0x1p28;
     // How much of a picture's height the horizon of a curved surface may move, and how many steps it is off anyway.
     static constexpr double horizon = ShortFixed<N> ? 1.0 / 256 : N::is_fixed ? 2e-3 : 4e-3;
-    static constexpr double cone_horizon = single ? horizon / 8 : horizon;
+    static constexpr double tapered_horizon = single ? horizon / 8 : horizon;
     static constexpr double rough = NarrowFixed<N> ? 1 : 0;
 };
 
@@ -52,7 +52,7 @@ public:
     {
         int fine = 0;
         if constexpr (NarrowFixed<N>)
-            fine = o.kind == Kind::sphere ? block_scale<N>(Convert<N>::length(o.ra * frame.scale), &Blocks::ball) : 0;
+            fine = is_ball(o.kind) ? block_scale<N>(Convert<N>::length(o.ra * frame.scale), &Blocks::ball) : 0;
         return fine < 0 ? ldexp(1, -fine) : 0;
     }
 
@@ -103,7 +103,7 @@ public:
             return;
         const double moved = sqrt(2 * seen_from / r) - sqrt(2 * off / r)
             + fmax(Steps<N>::rough, coarse(o) / 2) * step() / sqrt(2 * seen_from * r);
-        if (moved > (o.kind == Kind::cone && o.ra != o.rb ? Steps<N>::cone_horizon : Steps<N>::horizon) * 2 * half)
+        if (moved > (is_ball(o.kind) || o.ra == o.rb ? Steps<N>::horizon : Steps<N>::tapered_horizon) * 2 * half)
             lost.note({o.line, 0}, "the eye, %.3g off a %s, sees its horizon from %.3g off, where steps are %.3g", off,
                       name_of(o), seen_from, step());
     }
@@ -160,18 +160,12 @@ public:
             const Object& o = d.objects[i];
             Extent box;
             add_object(box, d, o);
-            const Vec3d low = box.low - l.at, high = box.high - l.at;
-            const bool fan = o.kind == Kind::patch;
-            if ((!fan && kind_of(o) != flat)
-                || (!is_endless(o)
-                    && (low.x > reach.x || low.y > reach.y || low.z > reach.z || high.x < -reach.x || high.y < -reach.y
-                        || high.z < -reach.z)))
+            box = {box.low - reach, box.high + reach};
+            if (widest(o) < HUGE_VAL || !(is_endless(o) || box.holds(l.at)))
                 continue;
             for (uint32_t part = 0; part < surfaces_of(o); part++) {
-                const Vec3d* const v = d.vertices + o.vertex;
-                const Vec3d n = fan ? unit(cross(v[part + 1] - v[0], v[part + 2] - v[part + 1])) : normal(o);
-                const double height = dot(n, l.at - place(o));
-                if (fabs(height) + fabs(dot(n, l.u)) + fabs(dot(n, l.v)) <= off)
+                const auto [met, height, n] = over(o, l.at, part);
+                if (met && fabs(height) + fabs(dot(n, l.u)) + fabs(dot(n, l.v)) <= off)
                     f(o, first + part, n, fabs(height) <= 16 * noise(o, n, l.at) ? 0 : height > 0 ? 1 : -1);
             }
         }
@@ -205,32 +199,30 @@ public:
         double near = Steps<N>::clear_apart * step();
         if constexpr (N::is_fixed)
             near = ldexp(near, -N::blocks.ball.least);
-        for (const Kind kind : {Kind::sphere, Kind::cone, flat}) {
-            uint32_t count = 0;
-            for (uint32_t i = 0; i < d.object_count; i++)
-                if (kind_of(d.objects[i]) == kind) {
-                    const Vec3d k = key(d.objects[i]);
-                    sorted[count++] = {k.x, k.y, k.z, i};
-                }
-            std::sort(sorted, sorted + count, [](const SortedObject& a, const SortedObject& b) {
-                return std::tie(a.x, a.y, a.z, a.index) < std::tie(b.x, b.y, b.z, b.index);
-            });
-            for (uint32_t i = 0; i < count; i++)
-                for (uint32_t k = i + 1; k < count && k < i + neighbours; k++) {
-                    const SortedObject &a = sorted[i], &b = sorted[k];
-                    if (b.x - a.x > near)
-                        break;
-                    // The tiles of one floor are told apart here: there may be many.
-                    if (fmax(fabs(b.y - a.y), fabs(b.z - a.z)) > near
-                        || (kind == flat && b.x - a.x <= 0x1p-52 * b.x))
-                        continue;
-                    pair(d.objects[std::min(a.index, b.index)], d.objects[std::max(a.index, b.index)]);
-                }
-        }
+        uint32_t count = 0;
+        for (uint32_t i = 0; i < d.object_count; i++)
+            if (const Object& o = d.objects[i]; is_flat(o) || widest(o) < HUGE_VAL) {
+                const Vec3d k = key(o);
+                sorted[count++] = {is_flat(o) ? flat : static_cast<uint32_t>(o.kind), i, k.x, k.y, k.z};
+            }
+        std::sort(sorted, sorted + count, [](const SortedObject& a, const SortedObject& b) {
+            return std::tie(a.group, a.x, a.y, a.z, a.index) < std::tie(b.group, b.x, b.y, b.z, b.index);
+        });
+        for (uint32_t i = 0; i < count; i++)
+            for (uint32_t k = i + 1; k < count && k < i + neighbours; k++) {
+                const SortedObject &a = sorted[i], &b = sorted[k];
+                if (b.group != a.group || b.x - a.x > near)
+                    break;
+                // The tiles of one floor are told apart here: there may be many.
+                if (fmax(fabs(b.y - a.y), fabs(b.z - a.z)) > near
+                    || (a.group == flat && b.x - a.x <= 0x1p-52 * b.x))
+                    continue;
+                pair(d.objects[std::min(a.index, b.index)], d.objects[std::max(a.index, b.index)]);
+            }
     }
 
 private:
-    static constexpr uint32_t neighbours = 64;
+    static constexpr uint32_t neighbours = 64, flat = UINT32_MAX; // of all that is flat, the group
 
     const Description& d;
     const Frame& frame;
@@ -293,51 +285,11 @@ private:
         }
     }
 
-    // Planes, discs and polygons alike.
-    static constexpr Kind flat = Kind::disc;
-    static Kind kind_of(const Object& o) { return o.kind == Kind::polygon ? flat : o.kind; }
-
-    // What is flat: its plane, and how to tell what lies on it.
-    Vec3d normal(const Object& o) const
-    {
-        return o.kind == Kind::polygon ? unit(across(d.vertices + o.vertex, o.count)) : unit(o.b);
-    }
+    // p as seen from the plane of what is flat.
+    Above over(const Object& o, const Vec3d& p, uint32_t part = 0) const { return lies_on(d, o, part, p, HUGE_VAL); }
     Vec3d place(const Object& o) const { return o.count != 0 ? d.vertices[o.vertex] : o.a; }
-    Vec3d middle(const Object& o) const
-    {
-        if (o.kind != Kind::polygon)
-            return o.a;
-        Vec3d sum;
-        for (uint32_t i = 0; i < o.count; i++)
-            sum = sum + d.vertices[o.vertex + i];
-        return sum * (1.0 / o.count);
-    }
-    bool covers(const Object& o, const Vec3d& n, const Vec3d& p) const
-    {
-        if (is_endless(o))
-            return true;
-        if (o.kind == Kind::disc)
-            return length(p - o.a) < o.ra;
-        const Vec3d u = unit_across(n), w = cross(n, u);
-        bool inside = false;
-        for (uint32_t i = 0, before = o.count - 1; i < o.count; before = i++) {
-            const Vec3d a = d.vertices[o.vertex + i] - p, b = d.vertices[o.vertex + before] - p;
-            const double ay = dot(a, w), by = dot(b, w);
-            if ((ay > 0) != (by > 0) && dot(a, u) + (dot(b, u) - dot(a, u)) * ay / (ay - by) > 0)
-                inside = !inside;
-        }
-        return inside;
-    }
-
     // What is the same in two objects that fall together comes first.
-    Vec3d key(const Object& o) const
-    {
-        if (o.kind == Kind::sphere)
-            return o.a;
-        if (o.kind == Kind::cone)
-            return (o.a + o.b) * 0.5;
-        return {fabs(dot(place(o), normal(o))), 0, 0};
-    }
+    Vec3d key(const Object& o) const { return is_flat(o) ? Vec3d{fabs(over(o, {}).height), 0, 0} : middle(d, o); }
 
     static bool clear(const Fill& f)
     {
@@ -347,15 +299,13 @@ private:
     // How far apart are they, at most? HUGE_VAL where they have little in common.
     double apart(const Object& a, const Object& b) const
     {
-        if (a.kind == Kind::sphere)
-            return fabs(a.ra - b.ra) + length(a.a - b.a);
-        if (a.kind == Kind::cone)
-            return fmin(fmax(fabs(a.ra - b.ra) + length(a.a - b.a), fabs(a.rb - b.rb) + length(a.b - b.b)),
-                        fmax(fabs(a.ra - b.rb) + length(a.a - b.b), fabs(a.rb - b.ra) + length(a.b - b.a)));
-        const Vec3d n = normal(a);
-        if (fabs(dot(n, normal(b))) < 1 - 1e-9 || !(covers(a, n, middle(b)) || covers(b, n, middle(a))))
+        if (!is_flat(a))
+            return with_host(a.kind, [&](auto host) { return host.apart(a, b); });
+        const auto [met, height, n] = over(a, place(b));
+        if (fabs(dot(n, over(b, {}).outward)) < 1 - 1e-9
+            || !(covers(d, a, n, middle(d, b)) || covers(d, b, n, middle(d, a))))
             return HUGE_VAL;
-        return fabs(dot(n, place(a) - place(b)));
+        return fabs(height);
     }
 
     // Are they one surface after rounding?
@@ -363,8 +313,8 @@ private:
     {
         const auto length = [this](double v) { return Convert<N>::length(v * frame.scale); };
         const Point<N> p = Convert<N>::point(frame.point(place(a))), q = Convert<N>::point(frame.point(place(b)));
-        if (kind_of(a) == flat) {
-            const Vec3d n = normal(a);
+        if (is_flat(a)) {
+            const Vec3d n = over(a, {}).outward;
             return (fabs(n.x) == 1 && p.x == q.x) || (fabs(n.y) == 1 && p.y == q.y) || (fabs(n.z) == 1 && p.z == q.z);
         }
         return p == q && length(a.ra * 16) == length(b.ra * 16) && length(a.rb * 16) == length(b.rb * 16);
@@ -379,7 +329,7 @@ private:
             * step_at(fmax(largest(frame.eye - frame.origin), largest(place(a) - frame.origin)));
         const double off = apart(a, b), least = (opaque ? Steps<N>::apart : Steps<N>::clear_apart) * one;
         if (off > least || off > widest(a) / 16 || (opaque && f == g)
-            || off <= noise(a, widest(a) == HUGE_VAL ? normal(a) : Vec3d{1, 0, 0}, place(b)))
+            || off <= noise(a, is_flat(a) ? over(a, {}).outward : Vec3d{1, 0, 0}, place(b)))
             return;
         if (f.transmit == 0 && (clear(g) || in_front(a, b)) && same(a, b))
             return;
@@ -389,10 +339,9 @@ private:
     }
     bool in_front(const Object& a, const Object& b) const
     {
-        if (kind_of(a) != flat)
+        if (!is_flat(a))
             return a.ra + a.rb > b.ra + b.rb; // the eye is outside
-        const Vec3d n = normal(a);
-        return dot(n, frame.eye - place(a)) * dot(n, place(a) - place(b)) > 0;
+        return over(a, frame.eye).height * over(a, place(b)).height < 0;
     }
 };
 

@@ -51,9 +51,19 @@ inline uint32_t surfaces_of(const Object& o)
     return with_host(o.kind, [&o](auto host) { return host.surfaces_of(o); });
 }
 inline double widest(const Object& o) { return with_host(o.kind, [&o](auto host) { return host.widest(o); }); }
+inline bool is_ball(Kind kind) { return with_host(kind, [](auto host) { return host.is_ball; }); }
+inline bool is_flat(const Object& o) { return with_host(o.kind, [](auto host) { return host.is_flat; }); }
 inline bool is_endless(const Object& o)
 {
     return with_host(o.kind, [&o](auto host) { return host.is_endless(o); });
+}
+inline Vec3d middle(const Description& d, const Object& o)
+{
+    return with_host(o.kind, [&](auto host) { return host.middle(d, o); });
+}
+inline bool covers(const Description& d, const Object& o, const Vec3d& n, const Vec3d& p)
+{
+    return with_host(o.kind, [&](auto host) { return host.covers(d, o, n, p); });
 }
 inline void add_object(Extent& box, const Description& d, const Object& o)
 {

@@ -26,6 +26,12 @@ struct Host<Cone> : HostOfShape {
     static constexpr const char* example[] = {"c 1 0 0 0.3  1 1 0 0.1", "1 0 0.3"};
 
     static double widest(const Object& o) { return fmax(o.ra, o.rb); }
+    static Vec3d middle(const Description&, const Object& o) { return (o.a + o.b) * 0.5; }
+    static double apart(const Object& a, const Object& b)
+    {
+        return fmin(fmax(fabs(a.ra - b.ra) + length(a.a - b.a), fabs(a.rb - b.rb) + length(a.b - b.b)),
+                    fmax(fabs(a.ra - b.rb) + length(a.a - b.b), fabs(a.rb - b.ra) + length(a.b - b.a)));
+    }
     // The radius of its ball: around the middle of the axis, through the wider rim.
     static double reach(const Object& o)
     {
@@ -65,7 +71,7 @@ struct Host<Cone> : HostOfShape {
     static void convert(B& b, const Object& o, uint32_t place)
     {
         using N = typename B::Number;
-        const Vec3d middle = (o.a + o.b) * 0.5, axis = unit(o.b - o.a);
+        const Vec3d axis = unit(o.b - o.a);
         const double height = length(o.b - o.a), growth = (o.rb - o.ra) / height;
         const double cosine = 1 / sqrt(1 + growth * growth), sine = growth * cosine;
         if (b.vanishes(b.length(widest(o))) || b.vanishes(b.length(height)))
@@ -73,7 +79,7 @@ struct Host<Cone> : HostOfShape {
         const Vec3d e1 = unit_across(axis), e2 = cross(axis, e1);
         const int fine = b.fine_for(reach(o), &Blocks::cone);
         const double up = ldexp(1, fine);
-        b.s.cones.push() = {b.point(middle),
+        b.s.cones.push() = {b.point(middle(b.d, o)),
                             Convert<N>::direction(e1),
                             Convert<N>::direction(e2),
                             Convert<N>::direction(axis),
@@ -84,7 +90,7 @@ struct Host<Cone> : HostOfShape {
                             Convert<N>::unit(sine),
                             fine,
                             make_tag(place, o.fill),
-                            Convert<N>::rounded(b.frame.point(middle), fine)};
+                            Convert<N>::rounded(b.frame.point(middle(b.d, o)), fine)};
     }
     template <class N>
     static Extent box(const Cone<N>& s, const Corners<N>&)

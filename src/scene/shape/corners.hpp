@@ -70,20 +70,41 @@ inline void warn_of_nonplanar(Description& d, const Object& o)
                          100 * off / size);
 }
 
-struct HostOfCorners : HostOfShape {
+struct HostOfCorners : HostOfFlat {
     static void extent(Extent& box, const Description& d, const Object& o)
     {
         add_corners(box, d.vertices + o.vertex, o.count);
     }
+    static Vec3d middle(const Description& d, const Object& o)
+    {
+        Vec3d sum;
+        for (uint32_t i = 0; i < o.count; i++)
+            sum = sum + d.vertices[o.vertex + i];
+        return sum * (1.0 / o.count);
+    }
+    static bool covers(const Description& d, const Object& o, const Vec3d& n, const Vec3d& p)
+    {
+        const Vec3d u = unit_across(n), w = cross(n, u);
+        bool inside = false;
+        for (uint32_t i = 0, before = o.count - 1; i < o.count; before = i++) {
+            const Vec3d a = d.vertices[o.vertex + i] - p, b = d.vertices[o.vertex + before] - p;
+            const double ay = dot(a, w), by = dot(b, w);
+            if ((ay > 0) != (by > 0) && dot(a, u) + (dot(b, u) - dot(a, u)) * ay / (ay - by) > 0)
+                inside = !inside;
+        }
+        return inside;
+    }
 };
 
-// A figure is taken for what its extent holds of its plane: a ray from there meets nothing of it.
+// A figure is taken for what its extent holds of its plane: a ray from there meets nothing of it. HUGE_VAL
+// asks for its plane alone.
 inline Above lies_in_figure(const Vec3d* corners, uint32_t count, const Vec3d& p, double off)
 {
-    Extent box;
-    add_corners(box, corners, count, off);
-    if (!box.holds(p)) // of a large mesh, nearly all
-        return {};
+    if (Extent box; off < HUGE_VAL) {
+        add_corners(box, corners, count, off);
+        if (!box.holds(p)) // of a large mesh, nearly all
+            return {};
+    }
     const Vec3d g = across(corners, count);
     return length(g) > 0 ? above_plane(corners[0], unit(g), p, off) : Above{};
 }

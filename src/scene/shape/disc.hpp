@@ -6,7 +6,7 @@
 namespace qray::scene {
 
 template <>
-struct Host<Disc> : HostOfShape {
+struct Host<Disc> : HostOfFlat {
     static bool read(Reader& r, Description&, Object& o, bool& empty)
     {
         if (!r.point("the centre of a disc", o.a) || !r.direction("the normal of a disc", o.b)
@@ -30,6 +30,7 @@ struct Host<Disc> : HostOfShape {
         if (!is_endless(o))
             box.add(o.a, circle_extent(unit(o.b), o.ra));
     }
+    static bool covers(const Description&, const Object& o, Vec3d, const Vec3d& p) { return length(p - o.a) < o.ra; }
     static Above lies_on(const Description&, const Object& o, uint32_t, const Vec3d& p, double off)
     {
         return length(p - o.a) <= o.ra + off ? above_plane(o.a, unit(o.b), p, off) : Above{};

@@ -5,10 +5,15 @@
 //   example         an object of about unit size at the origin, and a place on it, for tests
 //   extent          adds an object to a box
 //   lies_on         is a point no farther than `off` from an object (of several surfaces, the part-th), on which side?
+//                   With HUGE_VAL of what is flat: from its plane
 //   convert         pushes the tracer's structures of an object, by a Builder
 //   box             the extent of the tracer's structure in the moved and scaled scene, for trees
 //   random          a random object as text, for tests
-// and, where it differs from HostOfShape's, surfaces_of, widest, range, is_endless and outline.
+//   widest          the greatest radius of what is curved; HUGE_VAL of what is not
+//   apart           how far apart two are, at most, of what is curved: for those that fall together
+//   covers          does a flat one hold a point of its plane, whose normal is n?
+// and, where it differs from HostOfShape's, surfaces_of, range, middle, is_ball, is_endless and outline. HostOfFlat is
+// for what is one flat surface.
 #pragma once
 
 #include "../convert.hpp"
@@ -28,13 +33,15 @@ struct Entity {
 };
 
 struct HostOfShape {
+    // Is it one flat surface, or the ball of radius ra around a?
+    static constexpr bool is_flat = false, is_ball = false;
     // How many surfaces an object has, each with a place of its own.
     static uint32_t surfaces_of(const Object&) { return 1; }
-    // The greatest radius of what is curved.
-    static double widest(const Object&) { return HUGE_VAL; }
     // How large the structure is, in units of what it may be in the moved and scaled scene; where coordinates say, 0.
     template <class N>
     static double range(const Object&) { return 0; }
+    static Vec3d middle(const Description&, const Object& o) { return o.a; }
+    static bool covers(const Description&, const Object&, const Vec3d&, const Vec3d&) { return false; }
     // Does it reach as far as the scene allows?
     static bool is_endless(const Object&) { return false; }
     // Calls f(corner) for those of what is flat and ends: of what takes part in radiosity.
@@ -42,6 +49,12 @@ struct HostOfShape {
     static void outline(const Description&, const Object&, F)
     {
     }
+};
+struct HostOfFlat : HostOfShape {
+    static constexpr bool is_flat = true;
+    static double widest(const Object&) { return HUGE_VAL; }
+    static double apart(const Object&, const Object&) { return HUGE_VAL; } // by their planes instead
+    static bool covers() = delete;                                         // each has its own
 };
 
 // What the tracer's numbers are.

@@ -27,6 +27,7 @@ struct Host<Patch> : HostOfCorners {
     static constexpr const char* fields = "normal; middle and radius of a ball around it; vertices: first, second; tag";
     static constexpr const char* example[] = {"pp 3  1 1 0 0 0 1  2 1 0 1 0 1  1 2 0 0 1 1", "1 1 0"};
 
+    static constexpr bool is_flat = false;
     static uint32_t surfaces_of(const Object& o) { return o.count - 2; }
     static Above lies_on(const Description& d, const Object& o, uint32_t part, const Vec3d& p, double off)
     {
@@ -62,7 +63,7 @@ struct Host<Patch> : HostOfCorners {
                 continue;
             }
             const Direction<N> flat = Convert<N>::direction(unit(g)), smooth[3] = {normal(0), normal(i), normal(i + 1)};
-            if (b.push_lean(b.s.smooth_triangles, rounded, smooth, flat, place, o.fill))
+            if (b.push_lean(b.s.smooth_triangles, rounded, smooth, flat, place, o))
                 continue;
             if (first == UINT32_MAX) {
                 first = b.push_corners(o);

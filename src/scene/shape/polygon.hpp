@@ -40,7 +40,7 @@ struct Host<Polygon> : HostOfCorners {
         const Vec3d g = across(v, o.count);
         if (o.count == 3 && length(g) > 0)
             if (const Point<N> corners[] = {b.point(v[0]), b.point(v[1]), b.point(v[2])}; spans(corners, 3)
-                && b.push_lean(b.s.triangles, corners, nullptr, Convert<N>::direction(unit(g)), place, o.fill))
+                && b.push_lean(b.s.triangles, corners, nullptr, Convert<N>::direction(unit(g)), place, o))
                 return;
         const uint32_t first = b.push_corners(o);
         if (!(length(g) > 0) || !spans(b.s.vertices.data + first, o.count)) {

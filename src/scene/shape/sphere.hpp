@@ -20,7 +20,9 @@ struct Host<Sphere> : HostOfShape {
     static constexpr const char* example[] = {"s 0 0 0 0.5", "0 0 0.5"};
 
     static void extent(Extent& box, const Description&, const Object& o) { box.add(o.a, {o.ra, o.ra, o.ra}); }
+    static constexpr bool is_ball = true;
     static double widest(const Object& o) { return o.ra; }
+    static double apart(const Object& a, const Object& b) { return fabs(a.ra - b.ra) + length(a.a - b.a); }
     static Above lies_on(const Description&, const Object& o, uint32_t, const Vec3d& p, double off)
     {
         const double distance = length(p - o.a);
