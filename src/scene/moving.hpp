@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include <qray/scene/lists.hpp>
+#include <qray/scene/effects.hpp>
 
 namespace qray::scene {
 
@@ -24,13 +24,12 @@ inline constexpr uint64_t camera_moves = uint64_t{1} << 63; // in every scene th
 constexpr bool moves_tables(uint64_t moving) { return (moving & ~camera_moves) != 0; }
 static_assert(sizeof table_names / sizeof *table_names < 64);
 
-#define QRAY_BIT(Type, name, table) | bit_of(TableId::table)
-inline constexpr uint64_t shape_tables = 0 QRAY_SHAPES(QRAY_BIT);
 // What can be named: of the rest, some move along. Triangles in little room keep of their normal what rounded corners
 // do not say, and stand still; figures that move are made none.
 inline constexpr uint64_t lean_tables = bit_of(TableId::triangles) | bit_of(TableId::smooth_triangles);
+#define QRAY_BIT(Type, name, table) | bit_of(TableId::table)
 inline constexpr uint64_t movable_tables =
-    (shape_tables & ~lean_tables) QRAY_LIGHTS(QRAY_BIT) | bit_of(TableId::mattes);
+    (0 QRAY_SHAPES(QRAY_BIT) QRAY_LIGHTS(QRAY_BIT) | bit_of(TableId::mattes)) & ~lean_tables;
 #undef QRAY_BIT
 
 constexpr bool moves_all(uint64_t moving) { return (moving & movable_tables) == movable_tables; }
@@ -38,15 +37,12 @@ constexpr bool moves_all(uint64_t moving) { return (moving & movable_tables) == 
 // With what follows the tables that are named.
 constexpr uint64_t with_followers(uint64_t moving)
 {
-    const auto any = [moving](uint64_t tables) { return (moving & tables) != 0; };
-    uint64_t all = moving | camera_moves;
-    if (any(shape_tables))
-        all |= bit_of(TableId::entries);
-    if (any(bit_of(TableId::polygons) | bit_of(TableId::patches)))
-        all |= bit_of(TableId::vertices);
-    if (any(bit_of(TableId::patches)))
-        all |= bit_of(TableId::normals);
-    return all;
+    Effects e;
+#define QRAY_MOVES(Type, name, table) e.name = (moving & bit_of(TableId::table)) != 0;
+    QRAY_SHAPES(QRAY_MOVES)
+#undef QRAY_MOVES
+    return moving | camera_moves | (e.shapes() != 0 ? bit_of(TableId::entries) : 0)
+        | (e.corners() ? bit_of(TableId::vertices) : 0) | (e.smooth() ? bit_of(TableId::normals) : 0);
 }
 
 // A text, and behind it what can be named.

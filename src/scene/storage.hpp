@@ -79,10 +79,7 @@ struct Storage {
     // Cuts empty tables from the room where it is large enough; returns how many bytes it must have.
     size_t lay_out(const Description& d, bool compiled)
     {
-#define QRAY_ONE(Type, name, table) +1
-        constexpr int kinds = QRAY_SHAPES(QRAY_ONE);
-#undef QRAY_ONE
-        uint32_t shapes[kinds] = {}, all = 0;
+        uint32_t shapes[everything(1).shapes()] = {}, all = 0;
         for (uint32_t i = 0; i < d.object_count; i++) {
             const uint32_t surfaces = surfaces_of(d.objects[i]);
             shapes[static_cast<int>(d.objects[i].kind)] += surfaces;
@@ -105,9 +102,10 @@ struct Storage {
             cut(vertices, (1 + once) * d.vertex_count);
             cut(normals, (1 + once) * d.vertex_count);
             cut(tree_shapes, all);
-            // One a patch; most for its size, four, takes what has one corner more than fit a block: 7 or 5.
+            // One for each surface but an object's first; most for its size, four, takes what has one corner more than
+            // fit a block: 7 or 5.
             if constexpr (has_outlines<N>)
-                cut(outlines, shapes[static_cast<int>(Kind::patch)] + d.vertex_count * 4 / (bound_lanes / 2 + 3));
+                cut(outlines, all - d.object_count + d.vertex_count * 4 / (bound_lanes / 2 + 3));
             cut(split_shapes, all);
             cut(split_nodes, 2 * all);
             // All but those of leaves are full, and with two leaves each there are bound_lanes of these below one.

@@ -55,7 +55,7 @@ void set_ball(BallNode& balls, uint32_t i, const SplitBox* box)
     const Vec3d low = box != nullptr ? value(box->lows()) : Vec3d{};
     const Vec3d high = box != nullptr ? value(box->highs()) : Vec3d{};
     const Vec3d centre = (low + high) * 0.5, half = (high - low) * 0.5;
-    const bool fills = box != nullptr && ShapeId{box->first}.kind() == Kind::sphere;
+    const bool fills = box != nullptr && is_ball(ShapeId{box->first}.kind());
     // Wider by what coordinates below 2^7 may be off in 24 bits, here and in a ray's origin: the box's slack is.
     const double r = fills ? half.x : scene::length(half), reach = r * length * unit;
     const double behind = hit_slack<N> / 512.0 * length * unit;
@@ -66,11 +66,17 @@ void set_ball(BallNode& balls, uint32_t i, const SplitBox* box)
     balls.square[i] = box != nullptr ? static_cast<float>(reach * reach) : -HUGE_VALF;
 }
 
-// Has a shape of this kind an outline in the tree?
+// The outline that a shape has in the tree; of no corners where it has none.
 template <class N>
-constexpr bool in_outlines(ShapeId id)
+Figure<Point<N>> outline_of([[maybe_unused]] const Storage<N>& s, [[maybe_unused]] ShapeId id)
 {
-    return has_outlines<N> && (id.kind() == Kind::polygon || id.kind() == Kind::patch);
+#define QRAY_CASE(Type, name, table) \
+    if constexpr (has_outlines<N> && Type<N>::has_corners) \
+        if (id.kind() == Kind::name) \
+            return s.table.data[id.index()].figure(s.vertices.data);
+    QRAY_SHAPES(QRAY_CASE)
+#undef QRAY_CASE
+    return {};
 }
 
 template <class N>
@@ -86,15 +92,9 @@ public:
             const ShapeId id{s.split_shapes.data[i].first};
             TreeShape& shape = s.tree_shapes.data[i];
             shape = {id, 0, 0, 0};
-            if constexpr (has_outlines<N>) {
-                if (id.kind() == Kind::polygon) {
-                    const Polygon<N>& p = s.polygons.data[id.index()];
-                    outline(shape, p.count, [&p](uint32_t corner) { return p.first + corner; });
-                } else if (id.kind() == Kind::patch) {
-                    const Patch<N>& p = s.patches.data[id.index()];
-                    outline(shape, 3, [&p](uint32_t corner) { return corner == 0 ? p.first : p.second + corner - 1; });
-                }
-            }
+            if constexpr (has_outlines<N>)
+                if (const Figure<Point<N>> figure = outline_of(s, id); figure.count != 0)
+                    outline(shape, figure);
         }
     }
 
@@ -102,11 +102,11 @@ private:
     Storage<N>& s;
     uint32_t filled; // corners of the last block
 
-    template <class Number>
-    void outline(TreeShape& shape, uint32_t count, Number number)
+    void outline(TreeShape& shape, const Figure<Point<N>>& figure)
     {
+        const uint32_t count = figure.count;
         // A corner again makes an edge without length, which crosses nothing.
-        const auto corner = [&](uint32_t i) { return s.vertices.data[number(i < count ? i : 0)]; };
+        const auto corner = [&](uint32_t i) { return figure[i < count ? i : 0]; };
         const uint32_t own = count > 4 ? 3 : 4, fours = (count + own - 1) / own; // edges of a four
         if (fours * 4 > bound_lanes - filled)
             filled = bound_lanes;
@@ -240,8 +240,8 @@ void build_tree(Storage<N>& s)
         return (part & leaf_bit) != 0 ? shapes[part ^ leaf_bit] : split[part];
     };
     // Pairs do, but for those with their outlines in one block.
-    const auto comes_apart = [shapes](const SplitBox& part) {
-        const auto in_block = [shapes](uint32_t i) { return in_outlines<N>({shapes[i].first}); };
+    const auto comes_apart = [&](const SplitBox& part) {
+        const auto in_block = [&](uint32_t i) { return outline_of(s, {shapes[i].first}).count != 0; };
         return part.count == 0 || (part.count == 2 && !(in_block(part.first) && in_block(part.first + 1)));
     };
     split_shapes(s);

@@ -177,9 +177,7 @@ private:
     }
     void object()
     {
-#define QRAY_ONE(Type, name, table) +1
-        constexpr uint32_t kinds = QRAY_SHAPES(QRAY_ONE);
-#undef QRAY_ONE
+        constexpr uint32_t kinds = qray::everything(1).shapes();
         const auto shape = static_cast<qray::Kind>(random.below(kinds));
         last = qray::scene::with_host(shape, [this](auto host) { return host.random(*this); }) + "\n";
         s += last;

@@ -9,9 +9,8 @@ namespace qray::scene::radiosity {
 
 constexpr Effects solver_effects()
 {
-    Effects e = everything(1);
+    Effects e = desktop_effects(1);
     e.highlight = e.fractional_shine = e.mirror = e.transmit = e.grid = e.adaptive = e.eye_surface = false;
-    e.triangle = e.smooth_triangle = e.flat_tree = false;
     return e;
 }
 using View = Scene<Double, solver_effects()>;
