@@ -110,7 +110,7 @@ public:
     // normals would be of any length.
     static bool vanishes(typename N::Length r)
     {
-        if constexpr (is_float)
+        if constexpr (SingleFloat<N>)
             return r < 0x1p-40f;
         else
             return r == N::length_zero;
@@ -135,7 +135,6 @@ public:
     }
 
 private:
-    static constexpr bool is_float = Steps<N>::single;
     const Settings& settings;
     Resolution<N> resolution{d, frame, s.lost};
     TextureBuilder<N> textures{d, frame, s};

@@ -51,12 +51,12 @@ public:
             }
             auto [at, shift] = far_point<N>(frame.point(l.at));
             // So far away that it is a sun; in float, its square would be infinite.
-            if (shift > 30 || (is_float && largest(at) > 0x1p60)) {
+            if (shift > 30 || (SingleFloat<N> && largest(at) > 0x1p60)) {
                 s.far_lights |= uint64_t{1} << i;
                 s.suns.push() = {Convert<N>::direction(unit(at)), s.colour(l.colour)};
                 continue;
             }
-            if constexpr (is_float) // what is not 0 from there to a surface has a square that float holds
+            if constexpr (SingleFloat<N>) // what is not 0 from there to a surface has a square that float holds
                 at = {off_zero(at.x), off_zero(at.y), off_zero(at.z)};
             if (shift == 0)
                 resolution.light_surfaces(l.at, keep_light_surface(l, TableId::lights, s.lights.count));
@@ -73,7 +73,6 @@ public:
     }
 
 private:
-    static constexpr bool is_float = Steps<N>::single;
     const Description& d;
     Storage<N>& s;
     const Settings& settings;
@@ -103,7 +102,7 @@ private:
         const Vec3d at = frame.point(l.at), u = l.u * frame.scale, v = l.v * frame.scale;
         const Vec3d reach{fabs(u.x) + fabs(v.x), fabs(u.y) + fabs(v.y), fabs(u.z) + fabs(v.z)};
         const auto [far, shift] = far_point<N>({fabs(at.x) + reach.x, fabs(at.y) + reach.y, fabs(at.z) + reach.z});
-        if (shift > 30 || (is_float && largest(far) > 0x1p60)) {
+        if (shift > 30 || (SingleFloat<N> && largest(far) > 0x1p60)) {
             if (largest(reach) > 0x1p-20 * largest(at)) {
                 snprintf(error.text, sizeof error.text,
                          "a panel that is too far away for its size, %.3g by %.3g: "

@@ -14,16 +14,15 @@ namespace qray::scene {
 
 template <class N>
 struct Steps {
-    static constexpr bool single = !N::is_fixed && sizeof(typename N::Length) == 4;
     // Rays that start so many steps off a surface meet it.
     static constexpr double off = NarrowFixed<N> ? 5 : 3;
     // Of two surfaces, where one lets rays through, and where none does.
     static constexpr double clear_apart = NarrowFixed<N> ? 4 : N::is_fixed ? 48 : 4, apart = 1.6;
     // Of a picture's height, where the object is.
-    static constexpr double picture = ShortFixed<N> ? 300 : N::is_fixed ? 6144 : single ? 2048 : 0x1p28;
+    static constexpr double picture = ShortFixed<N> ? 300 : N::is_fixed ? 6144 : SingleFloat<N> ? 2048 : 0x1p28;
     // How much of a picture's height the horizon of a curved surface may move, and how many steps it is off anyway.
     static constexpr double horizon = ShortFixed<N> ? 1.0 / 256 : N::is_fixed ? 2e-3 : 4e-3;
-    static constexpr double tapered_horizon = single ? horizon / 8 : horizon;
+    static constexpr double tapered_horizon = SingleFloat<N> ? horizon / 8 : horizon;
     static constexpr double rough = NarrowFixed<N> ? 1 : 0;
 };
 

@@ -123,7 +123,6 @@ template <class N>
 bool inside_exactly(const Flat* corners, uint32_t count, Flat p, bool& certain)
 {
     const auto size = [](int64_t v) { return v < 0 ? -v : v; };
-    constexpr bool is_float = !N::is_fixed && sizeof(typename N::Length) == 4;
     bool inside = false;
     certain = true;
     for (uint32_t i = 0; i < count; i++) {
@@ -134,7 +133,7 @@ bool inside_exactly(const Flat* corners, uint32_t count, Flat p, bool& certain)
         if ((a.y > p.y) == (b.y > p.y))
             continue;
         inside = inside != (b.y > p.y ? u > v : u < v);
-        if (is_float && size(u - v) <= (size(u) + size(v)) >> 22)
+        if (SingleFloat<N> && size(u - v) <= (size(u) + size(v)) >> 22)
             certain = false;
     }
     return inside;

@@ -25,7 +25,7 @@ QRAY_CASE(RefractionAMillionthOffTheCriticalAngle)
     if (ShortFixed<N>) {
         sines[0] = 790527720, cosines[0] = 612426250;
         sines[1] = 809276960, cosines[1] = 587427270;
-    } else if (NarrowFixed<N> || (sizeof(Unit) == 4 && !N::is_fixed)) {
+    } else if (NarrowFixed<N> || SingleFloat<N>) {
         sines[0] = 799994000, cosines[0] = 600008000;
         sines[1] = 800006000, cosines[1] = 599992000;
     }
@@ -63,7 +63,7 @@ QRAY_CASE(ThousandBouncesKeepTheDirectionUnit)
     Random random{93};
     Direction<N> d = M::direction({1, 2, 2}, 3);
     const auto one = N::one * N::one;
-    const int64_t float_has = sizeof(Unit) == 4 && !N::is_fixed ? 20 : 2;
+    const int64_t float_has = SingleFloat<N> ? 20 : 2;
     const Unit little = NarrowFixed<N> ? number<Unit>(ShortFixed<N> ? 3 : 4, 1 << slope<N>) // squares of q24 drop some
                                        : number<Unit>(float_has, 10000000);
     const auto most = N::one * little;
@@ -87,7 +87,7 @@ QRAY_CASE(ThousandBouncesBetweenTwoBallsKeepTheDirectionUnit)
     const Sphere<N> balls[2] = {M::sphere(M::point({-5, 0, 0}), 1, 1, tags[0]),
                                 M::sphere(M::point({5, 0, 0}), 2, 1, tags[1])};
     const auto one = N::one * N::one;
-    const int64_t float_has = sizeof(Unit) == 4 && !N::is_fixed ? 20 : 2;
+    const int64_t float_has = SingleFloat<N> ? 20 : 2;
     const Unit little = NarrowFixed<N> ? number<Unit>(5, 1 << slope<N>) : number<Unit>(float_has, 10000000);
     Ray<N> ray = M::ray(M::point({0, 0, 0}), M::direction({1, 0, 0}));
     ray.direction.x = ray.direction.x + number<Unit>(2, int64_t{1} << unit_bits<N>);

@@ -141,6 +141,8 @@ template <class N>
 concept ShortFixed = NarrowFixed<N> && N::Unit::frac < 16;
 template <class N>
 concept WideFixed = N::is_fixed && sizeof(typename N::Moment) == 8;
+template <class N>
+concept SingleFloat = !N::is_fixed && sizeof(typename N::Length) == 4;
 
 template <class T, class Expected>
 concept Is = __is_same(T, Expected);

@@ -16,7 +16,7 @@ namespace qray {
 
 // For these, a scene with a tree has them.
 template <class N>
-inline constexpr bool has_outlines = WideFixed<N> || (!N::is_fixed && sizeof(typename N::Length) == 4);
+inline constexpr bool has_outlines = WideFixed<N> || SingleFloat<N>;
 
 template <bool IsFixed>
 struct OutlineRow {
