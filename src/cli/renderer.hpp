@@ -128,11 +128,11 @@ struct RendererOf {
     };
     static const Kernel& kernel()
     {
-        constexpr Effects balls = balls_effects(), nff = nff_effects(), opaque = in_lanes<N> ? opaque_effects() : nff,
+        constexpr Effects balls = balls_effects(), nff = nff_effects(), opaque = QRAY_LANES ? opaque_effects() : nff,
                           all = scene::desktop_effects();
         static constexpr Kernel kernels[] = {
             {"balls", balls, flat_rows_of<N, balls>},
-            {in_lanes<N> ? "opaque" : "nff", opaque, flat_rows_of<N, opaque>},
+            {QRAY_LANES ? "opaque" : "nff", opaque, flat_rows_of<N, opaque>},
             {"nff", nff, flat_rows_of<N, nff>},
             {"everything", all, rows_of<N, all>},
         };

@@ -56,8 +56,7 @@ constexpr void render_moving(const Scene<N, E>& scene, uint32_t x, uint32_t j, u
 template <class Format, class N, Effects E, class Count = NoCount>
 constexpr void render_row(const Scene<N, E>& scene, uint32_t j, uint8_t* out, Count&& count = Count{})
 {
-    if constexpr (in_lanes<N> && !E.grid && !E.adaptive && !E.panel) {
-        // Each ray is made before the last one is traced: a walk that waits leaves room for it.
+    if constexpr (rays_ahead<N> && !E.grid && !E.adaptive && !E.panel) { // a walk that waits leaves time for the next
         const Camera<N>& c = scene.camera;
         const Pencil<N> row = c.row(2 * static_cast<int32_t>(j) + 1 - c.height);
         Ray<N> rays[2] = {eye_ray(scene, row + c.right * (1 - c.width)), {}};

@@ -31,6 +31,10 @@ struct Ray {
     bool outward; // which side of it the ray leaves to: that of its outward normal
 };
 
+// Is there room for a ray that is made before the last one is traced?
+template <class N>
+inline constexpr bool rays_ahead = in_lanes<N>;
+
 // Which of the eye's samples a ray is for: its column and row among all of that size.
 struct EyeSample {
     uint32_t x, y;
@@ -64,8 +68,7 @@ struct Rounded {
 template <class N>
     requires(!WideFixed<N>)
 struct Rounded<N> {};
-template <class N>
-    requires(N::is_fixed && in_lanes<N>)
+template <FixedLanes N>
 struct alignas(8) Rounded<N> { // to be read at once
     int16_t x, y, z;
 };
@@ -74,7 +77,7 @@ struct alignas(8) Rounded<N> { // to be read at once
 template <class N>
 QRAY_INLINE constexpr Point<N> from_exact(const Point<N>& p, [[maybe_unused]] const Rounded<N>& rounded)
 {
-    if constexpr (N::is_fixed && in_lanes<N>) {
+    if constexpr (FixedLanes<N>) {
         return p + lengths_of<N>(rounded);
     } else if constexpr (WideFixed<N>) {
         using Length = typename N::Length;
@@ -87,7 +90,7 @@ QRAY_INLINE constexpr Point<N> from_exact(const Point<N>& p, [[maybe_unused]] co
 template <class N>
 QRAY_INLINE constexpr Point<N> from_rounded(const Point<N>& p, [[maybe_unused]] const Rounded<N>& rounded)
 {
-    if constexpr (N::is_fixed && in_lanes<N>) {
+    if constexpr (FixedLanes<N>) {
         return p - lengths_of<N>(rounded);
     } else if constexpr (WideFixed<N>) {
         using Length = typename N::Length;

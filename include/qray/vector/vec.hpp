@@ -1,5 +1,5 @@
 // Vectors: what they are and what is done to them, by their parts (vec_parts.hpp) or in one register (vec_lanes.hpp).
-// Both give the same bits. Where the tracer spells out by parts what vec_lanes.hpp does at once, it asks in_lanes<N>.
+// Both give the same bits, and no folder above knows which.
 #pragma once
 
 #include "vec_lanes.hpp"

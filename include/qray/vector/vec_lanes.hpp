@@ -55,13 +55,6 @@ private:
     static constexpr uint64_t word(Number v) { return static_cast<uint32_t>(v.raw); }
 };
 
-template <class N>
-concept FloatLanes = in_lanes<N> && !N::is_fixed;
-template <class N>
-concept FixedLanes = in_lanes<N> && N::is_fixed;
-template <class N>
-concept AnyLanes = in_lanes<N>;
-
 template <FloatLanes N, class A, class B>
 QRAY_INLINE float dot(const Vec<A>& a, const Vec<B>& b)
 {

@@ -35,9 +35,15 @@ QRAY_INLINE constexpr Vec<T> parts_of(const Vec<T>& a)
 
 // Are its vectors one register each? Then vec_lanes.hpp has the functions below.
 template <class N>
-inline constexpr bool in_lanes = QRAY_LANES && (N::is_fixed ? !NarrowFixed<N> : sizeof(typename N::Length) == 4);
+inline constexpr bool in_lanes = QRAY_LANES && (WideFixed<N> || SingleFloat<N>);
 template <class N>
 concept InParts = !in_lanes<N>;
+template <class N>
+concept FloatLanes = in_lanes<N> && !N::is_fixed;
+template <class N>
+concept FixedLanes = in_lanes<N> && N::is_fixed;
+template <class N>
+concept AnyLanes = in_lanes<N>;
 
 // Exact in fixed point.
 template <InParts N, class A, class B>
@@ -117,7 +123,7 @@ QRAY_INLINE constexpr bool sum_of_cells([[maybe_unused]] const Step& x, [[maybe_
                                         [[maybe_unused]] const Vec<typename N::Length>& q,
                                         [[maybe_unused]] uint32_t& sum)
 {
-    if constexpr (!N::is_fixed && sizeof(typename N::Length) == 4) {
+    if constexpr (SingleFloat<N>) {
         const auto px = x.row * q.x + x.inside, py = y.row * q.y + y.inside, pz = z.row * q.z + z.inside;
         if (N::absolute(px) + N::absolute(py) + N::absolute(pz) < N::whole_limit) {
             sum = N::floor(px) + N::floor(py) + N::floor(pz) + x.index + y.index + z.index;
