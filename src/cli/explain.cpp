@@ -17,6 +17,7 @@ using scene::Vec3d;
 using Verdict = Explanation::Verdict;
 using TracedRay = Explanation::TracedRay;
 using LightShare = Explanation::LightShare;
+using Sample = Explanation::Sample;
 
 // What counts as the same: half a level of the picture, and what a number system of few bits may be off at every step.
 constexpr double light_off = 1.0 / 510, direction_off = 1.0 / 256, t_off = 1.0 / 1000;
@@ -60,14 +61,14 @@ public:
                       "1/256, light by half a\nlevel. Lines without it have the numbers of %s.\n",
                       first.name);
             uint32_t shared = 0;
-            for (const Explanation::Sample& s : samples(a))
+            for (const Sample& s : a.samples)
                 shared += find(*b, s) != nullptr;
             if (shared != a.samples.count || shared != b->samples.count)
                 out.print("! %s has %u sample%s, %s %u, of which %u are at the same places.\n", first.name,
                           a.samples.count, a.samples.count == 1 ? "" : "s", beside->name, b->samples.count, shared);
         }
-        for (const Explanation::Sample& s : samples(a)) {
-            const Explanation::Sample* const same = b != nullptr ? find(*b, s) : nullptr;
+        for (const Sample& s : a.samples) {
+            const Sample* const same = b != nullptr ? find(*b, s) : nullptr;
             sample(first, s, same);
             if (b == nullptr)
                 rays(a, s.first_ray, s.first_ray + s.ray_count);
@@ -77,7 +78,7 @@ public:
                 pairs(s, *same);
         }
         if (b != nullptr)
-            for (const Explanation::Sample& s : samples(*b))
+            for (const Sample& s : b->samples)
                 if (find(a, s) == nullptr) {
                     sample(*beside, s, nullptr);
                     alone(*beside, s.first_ray, s.first_ray + s.ray_count);
@@ -91,21 +92,15 @@ private:
     const Explained* const beside;
     uint32_t depth = 1; // of the ray that is written
 
-    struct Samples {
-        const Explanation::Sample *from, *to;
-        const Explanation::Sample* begin() const { return from; }
-        const Explanation::Sample* end() const { return to; }
-    };
-    static Samples samples(const Explanation& e) { return {e.samples.begin(), e.samples.begin() + e.samples.count}; }
-    static const Explanation::Sample* find(const Explanation& among, const Explanation::Sample& one)
+    static const Sample* find(const Explanation& among, const Sample& one)
     {
-        for (const Explanation::Sample& s : samples(among))
+        for (const Sample& s : among.samples)
             if (s.x == one.x && s.y == one.y)
                 return &s;
         return nullptr;
     }
 
-    void sample(const Explained& of, const Explanation::Sample& s, const Explanation::Sample* same)
+    void sample(const Explained& of, const Sample& s, const Sample* same)
     {
         char mark[40] = "";
         if (beside != nullptr && same == nullptr)
@@ -198,7 +193,7 @@ private:
         return i;
     }
     // Two trees beside each other. Below where they meet different things, each stands by itself.
-    void pairs(const Explanation::Sample& s, const Explanation::Sample& t)
+    void pairs(const Sample& s, const Sample& t)
     {
         const Explanation &a = first.of, &b = beside->of;
         uint32_t i = s.first_ray, j = t.first_ray;
@@ -217,14 +212,12 @@ private:
                 alone(*beside, j + 1, next_j);
                 i = next_i;
                 j = next_j;
-            } else if (one > two) {
-                const uint32_t next = subtree(a, i, ends[0]);
-                alone(first, i, next);
-                i = next;
             } else {
-                const uint32_t next = subtree(b, j, ends[1]);
-                alone(*beside, j, next);
-                j = next;
+                const Explained& e = one > two ? first : *beside;
+                uint32_t& at = one > two ? i : j;
+                const uint32_t next = subtree(e.of, at, ends[one < two]);
+                alone(e, at, next);
+                at = next;
             }
         }
     }

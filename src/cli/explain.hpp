@@ -33,7 +33,6 @@ struct Explanation {
         double weight;
         scene::Vec3d origin, direction;
         bool hit, turned, totally_reflected, touched_edge, deepest;
-        Kind shape;
         uint32_t place, material;
         double t, cosine;            // cosine: normal . direction
         scene::Vec3d point, normal;  // the shading normal, turned to the viewer
@@ -53,8 +52,9 @@ struct Explanation {
         scene::Room room;
         uint32_t count = 0;
         T* begin() const { return reinterpret_cast<T*>(room.at); }
+        T* end() const { return begin() + count; }
         T& operator[](uint32_t i) const { return begin()[i]; }
-        T& last() const { return begin()[count - 1]; }
+        T& last() const { return end()[-1]; }
         bool push(const T& value)
         {
             if ((count + size_t{1}) * sizeof(T) > room.size && !grow_room(room, 2 * room.size + 64 * sizeof(T)))

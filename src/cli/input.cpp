@@ -20,8 +20,7 @@ struct stat scene_file;
 
 bool failed(scene::Error& error, const char* path, const char* what)
 {
-    snprintf(error.text, sizeof error.text, "%s: cannot %s: %s", scene::ShownName(path).text, what, strerror(errno));
-    return false;
+    return error.say("%s: cannot %s: %s", scene::ShownName(path).text, what, strerror(errno));
 }
 
 // Appends a file to `to`, or its first `most` + 1 bytes. Closes it; 0, or what errno would be.
@@ -63,11 +62,9 @@ bool read_scene(const char* path, scene::Description& description, scene::Error&
     errno = read_all(file, scene::Limits::text, text, scene_file);
     if (errno != 0)
         return failed(error, path, file < 0 || errno == EISDIR ? "open" : "read");
-    if (text.size > scene::Limits::text) {
-        snprintf(error.text, sizeof error.text, "%s:1:1: a text of more than %u bytes (limit 'text')",
-                 scene::ShownName(path).text, scene::Limits::text);
-        return false;
-    }
+    if (text.size > scene::Limits::text)
+        return error.say("%s:1:1: a text of more than %u bytes (limit 'text')", scene::ShownName(path).text,
+                         scene::Limits::text);
     if (!make_room(description.room, description.lay_out(text.size))) {
         errno = ENOMEM;
         return failed(error, path, "read");

@@ -47,7 +47,6 @@ public:
     {
         Explanation::TracedRay& r = to.rays.last();
         r.hit = true;
-        r.shape = hit.kind;
         r.place = hit.tag.place();
         r.material = hit.tag.material();
         r.t = value(hit.t) / s.scale;

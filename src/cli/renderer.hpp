@@ -105,10 +105,8 @@ bool build_scene(const scene::Description& description, const scene::Settings& s
                  scene::Error& error)
 {
     scene::Storage<N>& storage = storage_of<N>();
-    if (!make_room(storage.room, storage.lay_out(description, settings.compiled))) {
-        snprintf(error.text, sizeof error.text, "not enough memory for the scene");
-        return false;
-    }
+    if (!make_room(storage.room, storage.lay_out(description, settings.compiled)))
+        return error.say("not enough memory for the scene");
     if (!scene::Builder<N>(description, settings, storage).build(error))
         return false;
     built = {storage.camera.width, storage.camera.height, storage.effects, storage.vanished,

@@ -30,10 +30,8 @@ public:
         if (!few_enough(error))
             return false;
         flat = settings.compiled && surfaces() >= least_for_tree<N>;
-        if (s.lay_out(d, settings.compiled) > s.room.size) {
-            snprintf(error.text, sizeof error.text, "not enough memory");
-            return false;
-        }
+        if (s.lay_out(d, settings.compiled) > s.room.size)
+            return error.say("not enough memory");
         s.vanished = 0;
         s.lost = {};
         s.unmoved = {};
@@ -153,13 +151,10 @@ private:
     bool few_enough(Error& error) const
     {
         const uint32_t most = Limits::surfaces - (d.fill_count == Limits::materials);
-        if (surfaces() <= most)
-            return true;
-        snprintf(error.text, sizeof error.text,
-                 "the scene has %llu surfaces (a patch of n corners counts as n - 2), "
-                 "more than the limit of %u surfaces",
-                 static_cast<unsigned long long>(surfaces()), most);
-        return false;
+        return surfaces() <= most
+            || error.say("the scene has %llu surfaces (a patch of n corners counts as n - 2), more than the limit of "
+                         "%u surfaces",
+                         static_cast<unsigned long long>(surfaces()), most);
     }
 
     // Has a narrow number system enough steps left where a plane takes most of them, and for the cells of textures?
@@ -167,21 +162,16 @@ private:
     {
         if constexpr (NarrowFixed<N>) {
             const double step = resolution.step();
-            if (frame.radius < Limits::narrow_radius * step) {
-                snprintf(error.text, sizeof error.text,
-                         "%s has lengths in steps of %.3g where planes reach as far as %.6g, and the scene's radius "
-                         "of %.3g is less than %.0f of them; expected a nearer 'far', or another number system",
-                         number_names_of<N>().name, step, frame.far, frame.radius, Limits::narrow_radius);
-                return false;
-            }
+            if (frame.radius < Limits::narrow_radius * step)
+                return error.say(
+                    "%s has lengths in steps of %.3g where planes reach as far as %.6g, and the scene's radius of "
+                    "%.3g is less than %.0f of them; expected a nearer 'far', or another number system",
+                    number_names_of<N>().name, step, frame.far, frame.radius, Limits::narrow_radius);
             for (uint32_t i = 0; i < d.fill_count; i++)
-                if (const Texture& t = d.fills[i].texture; t.size < Limits::narrow_cell * step) {
-                    snprintf(error.text, sizeof error.text,
-                             "%s has lengths in steps of %.3g here, and a texture's size of %.3g is less than "
-                             "1/%.0f of one; expected a larger one, or another number system",
-                             number_names_of<N>().name, step, t.size, 1 / Limits::narrow_cell);
-                    return false;
-                }
+                if (const Texture& t = d.fills[i].texture; t.size < Limits::narrow_cell * step)
+                    return error.say("%s has lengths in steps of %.3g here, and a texture's size of %.3g is less than "
+                                     "1/%.0f of one; expected a larger one, or another number system",
+                                     number_names_of<N>().name, step, t.size, 1 / Limits::narrow_cell);
         }
         return true;
     }
@@ -238,20 +228,15 @@ private:
             return true;
         if (moves_tables(settings.moving) && d.grid_count != 0) {
             error.at = d.radiosity_at;
-            snprintf(error.text, sizeof error.text,
-                     "light between surfaces is that of a scene that stands still; expected "
-                     "'--moving camera' alone, or no 'radiosity'");
-            return false;
+            return error.say("light between surfaces is that of a scene that stands still; expected '--moving camera' "
+                             "alone, or no 'radiosity'");
         }
         if constexpr (N::is_fixed) {
             const int exponent = -ilogb(frame.scale);
-            if (const double far = largest(frame.origin) + world / frame.scale; exponent < -10 || far >= 32768) {
-                snprintf(error.text, sizeof error.text,
-                         "a scene that moves has coordinates below 32768 in steps of 1/65536, and this one reaches "
-                         "%.6g and has a radius of %.3g; expected other units, or float",
-                         far, frame.radius);
-                return false;
-            }
+            if (const double far = largest(frame.origin) + world / frame.scale; exponent < -10 || far >= 32768)
+                return error.say("a scene that moves has coordinates below 32768 in steps of 1/65536, and this one "
+                                 "reaches %.6g and has a radius of %.3g; expected other units, or float",
+                                 far, frame.radius);
             s.frame = {place(frame.origin), exponent};
         } else {
             using F = typename N::Length;

@@ -133,6 +133,16 @@ struct LightGrid {
 struct Error {
     char text[512] = {};
     Position at{0, 0};
+
+    // Always false.
+    [[gnu::format(printf, 2, 3)]] bool say(const char* format, ...)
+    {
+        va_list values;
+        va_start(values, format);
+        vsnprintf(text, sizeof text, format, values);
+        va_end(values);
+        return false;
+    }
 };
 
 // An object by what it is sorted by.

@@ -64,12 +64,9 @@ public:
                 s.unmoved.note({l.line, 0}, "a lamp far outside of the scene: place() moves it, move() does not");
             s.lights.push() = {Convert<N>::point(at), shift, s.colour(l.colour)};
         }
-        if (s.light_surfaces.count <= most_light_surfaces())
-            return true;
-        snprintf(error.text, sizeof error.text,
-                 "lights lie on more than %u surfaces (limit 'light_surfaces', times lights)",
-                 most_light_surfaces());
-        return false;
+        return s.light_surfaces.count <= most_light_surfaces()
+            || error.say("lights lie on more than %u surfaces (limit 'light_surfaces', times lights)",
+                         most_light_surfaces());
     }
 
 private:
@@ -103,13 +100,10 @@ private:
         const Vec3d reach{fabs(u.x) + fabs(v.x), fabs(u.y) + fabs(v.y), fabs(u.z) + fabs(v.z)};
         const auto [far, shift] = far_point<N>({fabs(at.x) + reach.x, fabs(at.y) + reach.y, fabs(at.z) + reach.z});
         if (shift > 30 || (SingleFloat<N> && largest(far) > 0x1p60)) {
-            if (largest(reach) > 0x1p-20 * largest(at)) {
-                snprintf(error.text, sizeof error.text,
-                         "a panel that is too far away for its size, %.3g by %.3g: "
-                         "as far as 1e9 times the scene's size",
-                         2 * scene::length(l.u), 2 * scene::length(l.v));
-                return false;
-            }
+            if (largest(reach) > 0x1p-20 * largest(at))
+                return error.say("a panel that is too far away for its size, %.3g by %.3g: as far as 1e9 times the "
+                                 "scene's size",
+                                 2 * scene::length(l.u), 2 * scene::length(l.v));
             s.far_lights |= uint64_t{1} << (&l - d.lights);
             s.suns.push() = {Convert<N>::direction(unit(at)), s.colour(l.colour)};
             return true;

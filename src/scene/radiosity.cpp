@@ -224,10 +224,9 @@ private:
                 return true;
         }
         error.at = d.radiosity_at;
-        snprintf(error.text, sizeof error.text,
-                 "the light of surfaces still changes by %.3g after %u rounds; a room that loses none has no picture",
-                 d.light_change, most_rounds);
-        return false;
+        return error.say(
+            "the light of surfaces still changes by %.3g after %u rounds; a room that loses none has no picture",
+            d.light_change, most_rounds);
     }
 
     Vec3d light_by_others(const LightNode& node) const

@@ -13,8 +13,7 @@ inline constexpr uint32_t none = UINT32_MAX; // for the number of anything
 
 inline bool no_memory(Error& error)
 {
-    snprintf(error.text, sizeof error.text, "not enough memory for the light of surfaces");
-    return false;
+    return error.say("not enough memory for the light of surfaces");
 }
 // Cuts arrays from a room, which is made as large as they need.
 template <class Cut>
@@ -120,10 +119,8 @@ public:
             lay_cells(all[i], needed);
         if (needed > Limits::cells) {
             error.at = d.radiosity_at;
-            snprintf(error.text, sizeof error.text,
-                     "'radiosity %g' needs %.0f cells of light; expected at most %u (limit 'cells')", d.radiosity,
-                     needed, Limits::cells);
-            return false;
+            return error.say("'radiosity %g' needs %.0f cells of light; expected at most %u (limit 'cells')",
+                             d.radiosity, needed, Limits::cells);
         }
         d.cell_count = static_cast<uint32_t>(needed);
         return true;
