@@ -31,8 +31,6 @@ inline constexpr ArcTangents arc_tangents;
 
 } // namespace detail
 
-constexpr uint32_t absolute(int32_t v) { return v < 0 ? 0 - static_cast<uint32_t>(v) : static_cast<uint32_t>(v); }
-
 // atan(y / x) in [0, 2^30]; 0 where both are 0. Narrow is for x and y up to 2^16: by 32-bit products alone, error at
 // most 2^-17 turns. Else 2^-26.
 template <bool Narrow>
@@ -62,7 +60,7 @@ constexpr uint32_t arc_tangent(uint32_t y, uint32_t x)
 template <bool Narrow>
 constexpr uint32_t arc_tangent2(int32_t y, int32_t x)
 {
-    const uint32_t half = uint32_t{1} << 31, acute = arc_tangent<Narrow>(absolute(y), absolute(x));
+    const uint32_t half = uint32_t{1} << 31, acute = arc_tangent<Narrow>(magnitude(y), magnitude(x));
     const uint32_t angle = x < 0 ? half - acute : acute;
     return y < 0 ? 0 - angle : angle;
 }

@@ -160,6 +160,9 @@ constexpr int leading_zero_pairs(uint32_t x)
 #endif
 }
 
+constexpr uint32_t magnitude(int32_t v) { return v < 0 ? 0 - static_cast<uint32_t>(v) : static_cast<uint32_t>(v); }
+constexpr uint64_t magnitude(int64_t v) { return v < 0 ? 0 - static_cast<uint64_t>(v) : static_cast<uint64_t>(v); }
+
 // The number of the lowest bit that is set, for x > 0.
 constexpr uint32_t lowest_bit(uint32_t x)
 {

@@ -7,12 +7,6 @@
 
 namespace qray {
 
-// mantissa * 2^exponent, mantissa in [2^31, 2^32).
-struct Scaled {
-    uint32_t mantissa;
-    int32_t exponent;
-};
-
 namespace detail {
 
 // 1/sqrt(i/64) for i = 16..64 in Q1.15, lowered by 3/(64 i^2) so that the chords between neighbours,
@@ -312,19 +306,6 @@ QRAY_SHARED constexpr uint32_t reciprocal_mantissa(uint32_t d)
     uint32_t mantissa = (v << 17) + static_cast<uint32_t>((mul_shift_16(e, v) + 2) >> 2);
     return mantissa >> 31 != 0 ? mantissa : 0xffffffffu;
 }
-
-} // namespace detail
-
-// 1 / x, error at most 1 ulp of the mantissa. x = 0 gives {2^32 - 1, 0}.
-constexpr Scaled reciprocal(uint32_t x)
-{
-    if (x == 0)
-        return {0xffffffffu, 0};
-    int shift = count_leading_zeros(x);
-    return {detail::reciprocal_mantissa(x << shift), shift - 63};
-}
-
-namespace detail {
 
 // n 2^shift / den to the nearest integer, halves up, saturating at 2^31 - 1: without a division.
 QRAY_SHARED constexpr uint32_t divide_by_reciprocal(uint64_t n, uint32_t den, int shift)

@@ -7,7 +7,7 @@ namespace qray {
 
 struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
     using Span = int64_t; // a component of a direction that is not yet a unit vector
-    static_assert(Unit::frac == 30); // as unit_vector() has
+    static_assert(Unit::frac == 30); // as unit_vector() and powers have
 
     static constexpr Length length_max{INT32_MAX};
     static constexpr Blocks blocks{1 << 20, {0, 10, 535193190}, {0, 10, 40 << 24}}; // 1/16, 31.9, 40
@@ -98,7 +98,7 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
         // Two's complement magnitudes: |den| < 2^63 by the range of its terms.
         const int64_t n =
             den.raw < 0 ? static_cast<int64_t>(0 - static_cast<uint64_t>(int64_t{num.raw})) : int64_t{num.raw};
-        const uint64_t d = den.raw < 0 ? 0 - static_cast<uint64_t>(int64_t{den.raw}) : static_cast<uint64_t>(den.raw);
+        const uint64_t d = magnitude(den.raw);
         const int lz = count_leading_zeros(d);
         const uint32_t top = static_cast<uint32_t>((d << lz) >> 32);
         int shift = Unit::frac - 32 + lz + k;
@@ -108,8 +108,7 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
             shift = 0;
         }
         if (shift > 32) {
-            const uint64_t magnitude = m < 0 ? 0 - static_cast<uint64_t>(m) : static_cast<uint64_t>(m);
-            if (count_leading_zeros(magnitude) <= shift - 32 + 1)
+            if (count_leading_zeros(magnitude(m)) <= shift - 32 + 1)
                 return false;
             m = static_cast<int64_t>(static_cast<uint64_t>(m) << (shift - 32));
             shift = 32;
@@ -225,13 +224,11 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
     // x^e for x in [0, 1].
     QRAY_INLINE static constexpr Unit power_whole(Unit x, Shine e)
     {
-        return {static_cast<int32_t>(pow_whole(static_cast<uint32_t>(x.raw) << (30 - Unit::frac), e.whole)
-                                     >> (30 - Unit::frac))};
+        return {static_cast<int32_t>(pow_whole(static_cast<uint32_t>(x.raw), e.whole))};
     }
     QRAY_INLINE static constexpr Unit power(Unit x, Shine e)
     {
-        constexpr int up = 30 - Unit::frac;
-        return {static_cast<int32_t>(pow_unit(static_cast<uint32_t>(x.raw) << up, e) >> up)};
+        return {static_cast<int32_t>(pow_unit(static_cast<uint32_t>(x.raw), e))};
     }
 
     QRAY_INLINE static constexpr int32_t shift_left(int32_t v, int by)

@@ -122,15 +122,6 @@ struct FixedNumbers {
     {
         return {(g.raw + (1 << (UnitFrac - 2))) >> (UnitFrac - 1)};
     }
-
-    static constexpr uint32_t magnitude(int32_t v)
-    {
-        return v < 0 ? 0 - static_cast<uint32_t>(v) : static_cast<uint32_t>(v);
-    }
-    static constexpr uint64_t magnitude(int64_t v)
-    {
-        return v < 0 ? 0 - static_cast<uint64_t>(v) : static_cast<uint64_t>(v);
-    }
 };
 
 // Fixed point whose products take one register of 32 bits, and fixed point whose products take 64.

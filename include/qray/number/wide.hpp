@@ -124,8 +124,7 @@ struct Magnitude128 {
 
 QRAY_NOINLINE constexpr Magnitude128 product_magnitude(int64_t a, int64_t b)
 {
-    const uint64_t x = a < 0 ? 0 - static_cast<uint64_t>(a) : static_cast<uint64_t>(a);
-    const uint64_t y = b < 0 ? 0 - static_cast<uint64_t>(b) : static_cast<uint64_t>(b);
+    const uint64_t x = magnitude(a), y = magnitude(b);
     const uint32_t xh = static_cast<uint32_t>(x >> 32), xl = static_cast<uint32_t>(x);
     const uint32_t yh = static_cast<uint32_t>(y >> 32), yl = static_cast<uint32_t>(y);
     const uint64_t low = wide_mul(xl, yl);

@@ -115,8 +115,8 @@ QRAY_INLINE constexpr bool crosses(const Sheared<N>& a, const Sheared<N>& b, [[m
         if (a.x > o && b.x > o)
             return true;
         // Each coordinate is less than 1 too low, which is worth less than it and 1 in a product.
-        const int64_t margin = int64_t{N::magnitude(a.x.raw) | N::magnitude(a.y.raw)
-                                       | N::magnitude(b.x.raw) | N::magnitude(b.y.raw)} * 4 + 2;
+        const int64_t margin = int64_t{magnitude(a.x.raw) | magnitude(a.y.raw)
+                                       | magnitude(b.x.raw) | magnitude(b.y.raw)} * 4 + 2;
         const int64_t e = edge<N>(a, b).raw;
         if (e > margin || e < -margin)
             return (e > 0) == up;

@@ -28,7 +28,7 @@ struct Globe {
         if constexpr (N::is_fixed) {
             // To 14 bits, or 30.
             const Point<N> v = coarse<N>(q, shift) - centre;
-            const uint32_t all = absolute(v.x.raw) | absolute(v.y.raw) | absolute(v.z.raw) | 1;
+            const uint32_t all = magnitude(v.x.raw) | magnitude(v.y.raw) | magnitude(v.z.raw) | 1;
             const int up = count_leading_zeros(all) - (ShortFixed<N> ? 18 : 2), down = up < 0 ? -up : 0;
             const auto fitted = [up, down](int32_t c) { return up > 0 ? c * (1 << up) : c >> down; };
             return seen(fitted(v.x.raw), fitted(v.y.raw), fitted(v.z.raw));

@@ -224,13 +224,13 @@ constexpr Cell<N> radial_cell(P a, P b, bool with_epsilon)
 {
     if constexpr (NarrowFixed<N>) {
         // To 15 bits, if they have more.
-        const uint32_t ua = N::magnitude(a), ub = N::magnitude(b);
+        const uint32_t ua = magnitude(a), ub = magnitude(b);
         const int more = 17 - count_leading_zeros(ua | ub);
         const int down = more > 0 ? more : 0;
         const uint32_t na = ua >> down, nb = ub >> down;
         return LatticeAxis<N>::split((isqrt(na * na + nb * nb) << down) + (with_epsilon ? uint32_t{1} << 4 : 0));
     } else if constexpr (N::is_fixed) {
-        const uint64_t ua = N::magnitude(a), ub = N::magnitude(b);
+        const uint64_t ua = magnitude(a), ub = magnitude(b);
         const int down = 32 - count_leading_zeros(ua | ub);
         uint64_t rho = 0;
         if (down > 0) {
