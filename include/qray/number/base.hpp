@@ -76,51 +76,30 @@ inline constexpr bool has_double_sqrt = QRAY_DOUBLE_SQRT && sizeof(void*) == 8;
 
 namespace detail {
 
+// Drops `bits` bits of x where it has more, and counts by `worth` less.
+QRAY_INLINE constexpr void skip(uint32_t& x, int& n, int bits, int worth)
+{
+    if (const uint32_t high = x >> bits; high != 0) {
+        n -= worth;
+        x = high;
+    }
+}
 // Hacker's Delight (Warren), section 5-3.
 constexpr int soft_clz(uint32_t x)
 {
     int n = 32;
-    uint32_t high = x >> 16;
-    if (high != 0) {
-        n -= 16;
-        x = high;
-    }
-    high = x >> 8;
-    if (high != 0) {
-        n -= 8;
-        x = high;
-    }
-    high = x >> 4;
-    if (high != 0) {
-        n -= 4;
-        x = high;
-    }
-    high = x >> 2;
-    if (high != 0) {
-        n -= 2;
-        x = high;
-    }
+    skip(x, n, 16, 16);
+    skip(x, n, 8, 8);
+    skip(x, n, 4, 4);
+    skip(x, n, 2, 2);
     return x > 1 ? n - 2 : n - static_cast<int>(x);
 }
-
 constexpr int soft_zero_pairs(uint32_t x)
 {
     int n = 15;
-    uint32_t high = x >> 16;
-    if (high != 0) {
-        n -= 8;
-        x = high;
-    }
-    high = x >> 8;
-    if (high != 0) {
-        n -= 4;
-        x = high;
-    }
-    high = x >> 4;
-    if (high != 0) {
-        n -= 2;
-        x = high;
-    }
+    skip(x, n, 16, 8);
+    skip(x, n, 8, 4);
+    skip(x, n, 4, 2);
     return x >> 2 != 0 ? n - 1 : n;
 }
 
