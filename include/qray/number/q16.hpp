@@ -212,12 +212,7 @@ struct q16 : FixedNumbers<10, 14, 13, 13, 16> {
         return true;
     }
 
-    // Is a plane with this d.n seen almost edge on? Then its equation does not tell where the ray meets it.
-    QRAY_INLINE static constexpr bool nearly_zero(Cosine c)
-    {
-        constexpr int32_t limit = int32_t{1} << (2 * Unit::frac - 4);
-        return limit > c.raw && -limit < c.raw;
-    }
+    QRAY_INLINE static constexpr bool nearly_zero(Cosine c) { return is_below<4>(c); }
 
     // A hit within this of a light is a hit at the light.
     static constexpr Length light_clearance{4};

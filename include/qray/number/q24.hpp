@@ -218,13 +218,6 @@ struct q24 : FixedNumbers<16, 20, 13, 17, 24> {
     // How far a new ray starts from the surface it leaves: 4 ulp along the geometric normal.
     QRAY_INLINE static constexpr Length leave(Unit g) { return {(g.raw + (1 << 17)) >> 18}; }
 
-    // Is a plane with this d.n seen almost edge on? Then its equation does not tell where the ray meets it.
-    QRAY_INLINE static constexpr bool nearly_zero(Cosine c)
-    {
-        constexpr int32_t limit = int32_t{1} << (Cosine::frac - 10);
-        return limit > c.raw && -limit < c.raw;
-    }
-
     // What 14 bits tell as well, is as in q16.
     QRAY_INLINE static constexpr Length saturating_sub(Length a, Length b) { return a - b; }
     QRAY_INLINE static constexpr Colour saturating_add(Colour a, Colour b)

@@ -82,11 +82,7 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
         root = sqrt_unit({a.raw < 0 ? -a.raw : a.raw}) * sqrt({real ? b.raw < 0 ? -b.raw : b.raw : 0});
         return real;
     }
-    QRAY_INLINE static constexpr bool is_small(Cosine a)
-    {
-        constexpr int64_t eighth = int64_t{1} << (2 * Unit::frac - 3);
-        return -eighth < a.raw && eighth > a.raw;
-    }
+    QRAY_INLINE static constexpr bool is_small(Cosine a) { return is_below<3>(a); }
 
     // t = 2^k num / den, within 2 ulp. False where den is 0 or t does not fit Length.
     template <int A, int B>
@@ -201,13 +197,6 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
         wb = weight(uy);
         wc = weight(uz);
         return true;
-    }
-
-    // Is a plane with this d.n seen almost edge on? Then its equation does not tell where the ray meets it.
-    QRAY_INLINE static constexpr bool nearly_zero(Cosine c)
-    {
-        constexpr typename Cosine::Rep limit = typename Cosine::Rep{1} << (Unit::frac + Unit::frac / 2);
-        return limit > c.raw && -limit < c.raw;
     }
 
     // How far a new ray that goes on with a picture starts, if its cosine with the normal is at least this: along

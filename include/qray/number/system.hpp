@@ -108,6 +108,16 @@ struct FixedNumbers {
             - (8 * static_cast<int>(sizeof a) - F);
     }
 
+    // Is |a| less than 2^-Down?
+    template <int Down, int F>
+    QRAY_INLINE static constexpr bool is_below(Wide<F, Bits> a)
+    {
+        constexpr auto limit = typename Wide<F, Bits>::Rep{1} << (F - Down);
+        return limit > a.raw && -limit < a.raw;
+    }
+    // Is a plane with this d.n seen almost edge on? Then its equation does not tell where the ray meets it.
+    QRAY_INLINE static constexpr bool nearly_zero(Cosine c) { return is_below<UnitFrac / 2>(c); }
+
     // eta x, clamped to +-5/4: a bent direction longer than 1 is totally reflected, however long.
     QRAY_INLINE static constexpr Unit bent(Eta eta, Unit x)
     {
