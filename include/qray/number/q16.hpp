@@ -75,6 +75,26 @@ QRAY_SHARED constexpr bool unit_short(int32_t x, int32_t y, int32_t z, int32_t* 
     return true;
 }
 
+// t = 2^k num / den. False where den is 0, t exceeds `most`, or num is 0 and den next to nothing: where t has 32 - Least
+// bits. product(n, d), of numbers from 2^31 to 2^32, is 2^31 n / d.
+template <int Least, class Product>
+QRAY_INLINE constexpr bool quotient_by(Product product, int32_t num, int32_t den, int k, int32_t most, int32_t& t)
+{
+    uint32_t n = magnitude(num), d = magnitude(den);
+    if (d == 0)
+        return false;
+    const int n_zeros = count_leading_zeros(n | 1), d_zeros = count_leading_zeros(d);
+    const int down = 31 - k + n_zeros - d_zeros;
+    if (down < Least)
+        return false;
+    const uint32_t q = product(n << n_zeros, d << d_zeros);
+    n = down > 32 ? 0 : ((q >> (down - 1)) + 1) >> 1;
+    if (n > static_cast<uint32_t>(most))
+        return false;
+    t = (num ^ den) < 0 ? -static_cast<int32_t>(n) : static_cast<int32_t>(n);
+    return true;
+}
+
 } // namespace detail
 
 struct q16 : FixedNumbers<10, 14, 13, 13, 16> {
@@ -253,24 +273,10 @@ private:
     {
         return static_cast<uint32_t>(a.raw + r.raw) > static_cast<uint32_t>(r.raw) * 2;
     }
-    // 2^(Unit::frac + k) num / den.
     QRAY_SHARED static constexpr bool quotient(int32_t num, int32_t den, int k, int32_t& t)
     {
-        uint32_t n = magnitude(num), d = magnitude(den);
-        if (d == 0)
-            return false;
-        const int n_zeros = count_leading_zeros(n | 1), d_zeros = count_leading_zeros(d);
-        // n / d is (upper half of n) times (reciprocal of d) times 2^-31, with these shifts undone.
-        const int down = 31 - Unit::frac - k + n_zeros - d_zeros;
-        n <<= n_zeros;
-        if (down < 14)
-            return false;
-        const uint32_t q = (((n >> 15) + 1) >> 1) * detail::reciprocal_short(d << d_zeros);
-        n = down > 32 ? 0 : ((q >> (down - 1)) + 1) >> 1;
-        if (n > static_cast<uint32_t>(length_max.raw))
-            return false;
-        t = (num ^ den) < 0 ? -static_cast<int32_t>(n) : static_cast<int32_t>(n);
-        return true;
+        const auto product = [](uint32_t n, uint32_t d) { return (((n >> 15) + 1) >> 1) * detail::reciprocal_short(d); };
+        return detail::quotient_by<14>(product, num, den, Unit::frac + k, length_max.raw, t);
     }
 };
 

@@ -257,23 +257,10 @@ private:
         const uint32_t m = magnitude(a.raw), high = m >> 11, low = m & 2047;
         return (high * high << 8) + ((high * low + (low * low >> 12)) >> 2);
     }
-    // 2^k num / den.
     QRAY_SHARED static constexpr bool quotient(int32_t num, int32_t den, int k, int32_t& t)
     {
-        uint32_t n = magnitude(num), d = magnitude(den);
-        if (d == 0)
-            return false;
-        const int n_zeros = count_leading_zeros(n | 1), d_zeros = count_leading_zeros(d);
-        // n / d is n times (reciprocal of d) times 2^-31, with these shifts undone.
-        const int down = 31 - k + n_zeros - d_zeros;
-        if (down < 7)
-            return false;
-        const uint32_t q = mul_high(n << n_zeros, detail::reciprocal_mantissa(d << d_zeros));
-        n = down > 32 ? 0 : ((q >> (down - 1)) + 1) >> 1;
-        if (n > static_cast<uint32_t>(length_max.raw))
-            return false;
-        t = (num ^ den) < 0 ? -static_cast<int32_t>(n) : static_cast<int32_t>(n);
-        return true;
+        const auto product = [](uint32_t n, uint32_t d) { return mul_high(n, detail::reciprocal_mantissa(d)); };
+        return detail::quotient_by<7>(product, num, den, k, length_max.raw, t);
     }
 };
 
