@@ -75,6 +75,13 @@ QRAY_SHARED constexpr bool unit_short(int32_t x, int32_t y, int32_t z, int32_t* 
     return true;
 }
 
+// Is v beyond +-r?
+QRAY_INLINE constexpr bool is_outside(int32_t v, int32_t r)
+{
+    return static_cast<uint32_t>(v + r) > static_cast<uint32_t>(r) * 2;
+}
+QRAY_INLINE constexpr uint32_t square(int32_t v) { return static_cast<uint32_t>(v) * static_cast<uint32_t>(v); }
+
 // t = 2^k num / den. False where den is 0, t exceeds `most`, or num is 0 and den next to nothing: where t has 32 - Least
 // bits. product(n, d), of numbers from 2^31 to 2^32, is 2^31 n / d.
 template <int Least, class Product>
@@ -116,7 +123,8 @@ struct q16 : FixedNumbers<10, 14, 13, 13, 16> {
     // Is (x, y, z) longer than r? For r beyond 37800 to 4 ulp, and in doubt no.
     QRAY_INLINE static constexpr bool beyond(Length x, Length y, Length z, Length r)
     {
-        if (outside_cube(x, r) || outside_cube(y, r) || outside_cube(z, r))
+        using detail::is_outside, detail::square;
+        if (is_outside(x.raw, r.raw) || is_outside(y.raw, r.raw) || is_outside(z.raw, r.raw))
             return true;
         if (r.raw > 37800) {
             x.raw = (x.raw + 1) >> 1;
@@ -124,7 +132,7 @@ struct q16 : FixedNumbers<10, 14, 13, 13, 16> {
             z.raw = (z.raw + 1) >> 1;
             r.raw = (r.raw >> 1) + 1;
         }
-        return square(x) + square(y) + square(z) > square(r);
+        return square(x.raw) + square(y.raw) + square(z.raw) > square(r.raw);
     }
 
     // a - b, clamped to the range of Length: here it fits.
@@ -265,14 +273,6 @@ struct q16 : FixedNumbers<10, 14, 13, 13, 16> {
     }
 
 private:
-    QRAY_INLINE static constexpr uint32_t square(Length a)
-    {
-        return static_cast<uint32_t>(a.raw) * static_cast<uint32_t>(a.raw);
-    }
-    QRAY_INLINE static constexpr bool outside_cube(Length a, Length r)
-    {
-        return static_cast<uint32_t>(a.raw + r.raw) > static_cast<uint32_t>(r.raw) * 2;
-    }
     QRAY_SHARED static constexpr bool quotient(int32_t num, int32_t den, int k, int32_t& t)
     {
         const auto product = [](uint32_t n, uint32_t d) { return (((n >> 15) + 1) >> 1) * detail::reciprocal_short(d); };

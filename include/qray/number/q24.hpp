@@ -133,10 +133,11 @@ struct q24 : FixedNumbers<16, 20, 13, 17, 24> {
     // Is (x, y, z) longer than r? For r beyond 26000 squares are in 2^14.
     QRAY_INLINE static constexpr bool beyond(Length x, Length y, Length z, Length r)
     {
-        if (outside_cube(x, r) || outside_cube(y, r) || outside_cube(z, r))
+        using detail::is_outside, detail::square;
+        if (is_outside(x.raw, r.raw) || is_outside(y.raw, r.raw) || is_outside(z.raw, r.raw))
             return true;
         if (r.raw < 26000)
-            return square(x) + square(y) + square(z) > square(r);
+            return square(x.raw) + square(y.raw) + square(z.raw) > square(r.raw);
         return long_square(x) + long_square(y) + long_square(z) > long_square(r);
     }
 
@@ -243,14 +244,6 @@ struct q24 : FixedNumbers<16, 20, 13, 17, 24> {
 private:
     QRAY_INLINE static constexpr Unit longer(q16::Unit u) { return {u.raw * 64}; }
     QRAY_INLINE static constexpr q16::Unit shorter(Unit u) { return {(u.raw + 32) >> 6}; }
-    QRAY_INLINE static constexpr uint32_t square(Length a)
-    {
-        return static_cast<uint32_t>(a.raw) * static_cast<uint32_t>(a.raw);
-    }
-    QRAY_INLINE static constexpr bool outside_cube(Length a, Length r)
-    {
-        return static_cast<uint32_t>(a.raw + r.raw) > static_cast<uint32_t>(r.raw) * 2;
-    }
     // a^2 / 2^14, up to 2 too low, for |a| <= 2^22.
     QRAY_INLINE static constexpr uint32_t long_square(Length a)
     {

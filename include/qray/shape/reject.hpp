@@ -140,25 +140,19 @@ struct RejectRay<N> {
         const int32_t b = dot<N>(v, ray.direction).raw >> down;
         if (b + r < 0) // all behind
             return true;
-        const uint32_t edge = 2 * static_cast<uint32_t>(r);
+        using detail::is_outside, detail::square;
         const int32_t x = (b * ray.direction.x.raw >> down) - v.x.raw;
-        if (static_cast<uint32_t>(x + r) > edge)
+        if (is_outside(x, r))
             return true;
         const int32_t y = (b * ray.direction.y.raw >> down) - v.y.raw;
-        if (static_cast<uint32_t>(y + r) > edge)
+        if (is_outside(y, r))
             return true;
         const int32_t z = (b * ray.direction.z.raw >> down) - v.z.raw;
-        if (static_cast<uint32_t>(z + r) > edge)
+        if (is_outside(z, r))
             return true;
         return r <= 37800 && square(x) + square(y) + square(z) > square(r); // three of these fit
     }
     constexpr bool misses_plane(const Point<N>&, const Direction<N>&) const { return false; }
-
-private:
-    QRAY_INLINE static constexpr uint32_t square(int32_t a)
-    {
-        return static_cast<uint32_t>(a) * static_cast<uint32_t>(a);
-    }
 };
 
 // In q24, q16's of what is cut off to it. A difference of points (up to 128000) is wrong by less than 1 a component, a
