@@ -935,7 +935,8 @@ TEST(Parser, RoomIsEnough) {
 // Meshes.
 
 TEST(ParserMesh, Forms) {
-    beside = {{"a.obj", "# a square, in all forms\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nvn 0 0 2\nvn 1 0 1\nvt 0 0\n"
+    beside = {{"a.obj", "# a square, in all forms\nv 0 0 0\nv 1 0 0 1\nv 1 \\\n 1 \\\r\n\t0\nv 0 1 0\nvn 0 0 2\nvn 1 0 \\\n1\n"
+                        "vt 0 0\n"
                         "f 1 2 3 4\nf -4/1 2/1/1 -2 \\\n 4//1\nf 1//1 2/7/1 3//2 -1//-2\n\r\n"
                         "usemtl x \xc3\xb6 f\nf 4 4 1\nf 1 3 3\n"}};
     ASSERT_PARSES(view + "material s 5 0 0 1 mesh a.obj s 6 0 0 1 "
@@ -1012,6 +1013,10 @@ TEST(ParserMesh, ErrorsNameTheLineOfTheMesh) {
         {"v 0 0 @\xff", "found the byte 0xff"},
         {"v 0 0 0\n@\xffo", "found the byte 0xff"},
         {"v 1 2\n@vn 1 2 3", "expected z of a vertex, found 'vn', which is not a number"},
+        {"v 1 2\n@3\n", "expected z of a vertex in the line before, found '3'"},
+        {"v 0 0 0\nvn \n\n@1 2 3\n", "expected x of a normal in the line before, found '1'"},
+        {"v 1 \\\n2\n@3\n", "expected z of a vertex in the line before, found '3'"},
+        {"v 1 \\\n@x 3\n", "expected y of a vertex, found 'x'"},
         {"v 1 @nan 0", "expected y of a vertex, found 'nan'"},
         {"v 1 @1e16 0", "y of a vertex is 1e16; expected a number from -1e15 to 1e15"},
         {"vn @0 0 0", "a normal is zero; expected a vector with a direction"},
@@ -1022,6 +1027,8 @@ TEST(ParserMesh, ErrorsNameTheLineOfTheMesh) {
         {"v 0 0 0\nf 1 1 @0//1", "'0//1' names vertex 0; expected one of the 1 before it"},
         {"v 0 0 0\nf 1 1 @-2", "'-2' names vertex -2; expected"},
         {"v 0 0 0\nf @1//1 1 1", "'1//1' names normal 1; expected one of the 0 before it"},
+        {"v 0 0 0\nvn 0 0 1\nf @1//0 1 1", "'1//0' names normal 0; expected one of the 1 before it"},
+        {"v 0 0 0\nvn 0 0 1\nf 1 1 @1/1/-0", "'1/1/-0' names normal 0; expected one of the 1 before it"},
         {"v 0 0 0\nf 1 @1/ 1", "expected a corner such as 3, 3/1, 3//2 or 3/1/2, found '1/'"},
         {"v 0 0 0\nf 1 @1/1/1/1 1", "expected a corner"},
         {"v 0 0 0\nf 1 @1// 1", "expected a corner"},

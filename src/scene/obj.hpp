@@ -38,9 +38,11 @@ public:
         uint32_t point_count = 0, normal_count = 0, faces = 0;
         const bool good = for_each_statement([&] {
             if (statement.text == "v")
-                return point("a vertex", points[point_count++]);
-            if (statement.text == "vn")
-                return direction("a normal", normals[normal_count++]);
+                return vector("a vertex", points[point_count++]);
+            if (statement.text == "vn") {
+                Vec3d& normal = normals[normal_count++];
+                return vector("a normal", normal) && not_zero("a normal", normal);
+            }
             if (statement.text != "f") {
                 pass_over();
                 return true;
@@ -52,18 +54,17 @@ public:
                     return too_many_vertices();
                 const uint32_t at = d.vertex_count + n;
                 int64_t numbers[3] = {};
-                if (!corner(numbers) || !number_of("vertex", point_count, numbers[0]))
+                bool has_normal = false;
+                if (!corner(numbers, has_normal) || !number_of("vertex", point_count, numbers[0])
+                    || (has_normal && !number_of("normal", normal_count, numbers[2])))
                     return false;
                 d.vertices[at] = points[numbers[0]] * scale + offset;
                 if (largest(d.vertices[at]) > largest_length)
                     return fail(token.at, "the scaled vertex has a coordinate of %.3g; expected %s",
                                 largest(d.vertices[at]), length_range.text);
-                smooth = smooth && numbers[2] != 0;
-                if (numbers[2] != 0) {
-                    if (!number_of("normal", normal_count, numbers[2]))
-                        return false;
+                smooth = smooth && has_normal;
+                if (has_normal)
                     d.normals[at] = normals[numbers[2]];
-                }
             }
             faces++;
             if (n < 3)
@@ -119,9 +120,25 @@ private:
         return false;
     }
 
-    // a, a/b, a//c or a/b/c: the numbers of a vertex, of a place in a picture, and of a normal; 0
-    // where one is left out.
-    bool corner(int64_t (&numbers)[3])
+    // Three numbers in the statement's line.
+    bool vector(const char* what, Vec3d& value)
+    {
+        constexpr const char* parts[] = {"x of ", "y of ", "z of "};
+        double* const to[] = {&value.x, &value.y, &value.z};
+        for (int i = 0; i < 3; i++) {
+            if (!more() && token.kind == TokenKind::number)
+                return fail(token.at, "expected %s%s in the line before, found '%s'", parts[i], what,
+                            Shown(token.text).text);
+            lexer.unread();
+            if (!number(what, length_range, *to[i], parts[i]))
+                return false;
+            vector_at = i == 0 ? token.at : vector_at;
+        }
+        return true;
+    }
+
+    // a, a/b, a//c or a/b/c: the numbers of a vertex, of a place in a picture, and of a normal.
+    bool corner(int64_t (&numbers)[3], bool& has_normal)
     {
         const char* at = token.text.data();
         const char* const end = at + token.text.size();
@@ -130,6 +147,7 @@ private:
             if (read.ec != std::errc() && !(i == 1 && at != end && *at == '/'))
                 break;
             at = read.ptr;
+            has_normal = i == 2;
             if (at == end)
                 return true;
             if (*at++ != '/')

@@ -111,8 +111,12 @@ bool Reader::point(const char* what, Vec3d& value)
 
 bool Reader::direction(const char* what, Vec3d& value)
 {
-    return point(what, value)
-        && (!is_zero(value) || fail(vector_at, "%s is zero; expected a vector with a direction", what));
+    return point(what, value) && not_zero(what, value);
+}
+
+bool Reader::not_zero(const char* what, const Vec3d& value)
+{
+    return !is_zero(value) || fail(vector_at, "%s is zero; expected a vector with a direction", what);
 }
 
 bool Reader::colour(const char* what, const Range& range, Vec3d& value)

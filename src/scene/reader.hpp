@@ -57,6 +57,7 @@ public:
     bool count(const char* what, uint32_t low, uint32_t high, const char* limit, uint32_t& value);
     bool point(const char* what, Vec3d& value);
     bool direction(const char* what, Vec3d& value); // not zero
+    bool not_zero(const char* what, const Vec3d& value);
     bool colour(const char* what, const Range& range, Vec3d& value);
 
     // Always false.
