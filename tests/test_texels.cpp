@@ -118,6 +118,8 @@ TEST(ImageFile, EveryFaultIsNamedAtTheScenesPlace)
         {ppm(3, 1, row, "0"), "is a PPM of values up to 0, not 1 to 255"},
         {ppm(3, 1, row, "65535"), "is a PPM of values up to 65535, not 1 to 255"},
         {ppm(3, 1, row.substr(1)), "is short: it has 19 bytes, and its texels end at 20"},
+        {"P6 3 1 255" + row + "\n", "is a PPM whose header ends at byte 10"},
+        {"P6 3 1 255# white\n" + row, "is a PPM whose header ends at byte 10"},
         {"P6 3 1 255", "is short: it has 10 bytes, and its texels end at 20"},
     };
     for (const auto& c : cases) {

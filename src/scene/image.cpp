@@ -100,10 +100,10 @@ private:
         return true;
     }
 
+    static bool is_space(uint8_t c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
     // A number of a PPM's header, behind white space and comments; too large a one is cut to 99999999.
     bool number(size_t& next, uint32_t& value)
     {
-        const auto is_space = [](uint8_t c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
         const size_t before = next;
         for (bool comment = false; next < size && (comment || is_space(at[next]) || at[next] == '#'); next++)
             comment = (comment || at[next] == '#') && at[next] != '\n';
@@ -124,7 +124,9 @@ private:
         if (!edges(width, height))
             return false;
         const size_t bytes = 3 * size_t{out.width} * out.height;
-        next++; // one white space
+        if (next < size && !is_space(at[next])) // one white space, and no more
+            return is("is a PPM whose header ends at byte %zu", next);
+        next++;
         if (!has(next, bytes))
             return false;
         for (size_t i = 0; i < bytes; i++)
