@@ -8,6 +8,9 @@ FR_CODE := src/firmware/animations/$(ANIMATION).cpp
 ifeq ($(wildcard $(FR_CODE)),)
 $(error there is no animation $(ANIMATION); they are: $(basename $(notdir $(wildcard src/firmware/animations/*.cpp))))
 endif
+ifeq ($(shell echo '$(FRAMES)' | grep -Ex '[1-9][0-9]{0,5}'),)
+$(error FRAMES=$(FRAMES): expected a whole number from 1 to 999999)
+endif
 FR_MOVES   := $(shell sed -n 's,^// Moves: ,,p' $(FR_CODE))
 ifeq ($(strip $(FR_MOVES)),)
 $(error $(FR_CODE) does not say what moves; expected a line like // Moves: spheres,lights)

@@ -96,6 +96,10 @@ class Frames(unittest.TestCase):
         status, text = make("frames", f"SCENE={SCENE}", "ANIMATION=none")
         self.assertNotEqual(status, 0)
         self.assertIn("there is no animation none", text)
+        for frames in ("0", "-1", "1.5", "x", "4294967297"):
+            status, text = make("frames", f"SCENE={SCENE}", "ANIMATION=orbit", f"FRAMES={frames}")
+            self.assertNotEqual(status, 0)
+            self.assertIn(f"FRAMES={frames}: expected a whole number from 1 to 999999", text)
         status, text = make("frames")
         self.assertNotEqual(status, 0)
         self.assertIn("usage", text)
