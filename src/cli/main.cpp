@@ -84,7 +84,7 @@ int build(const Options& options, const Renderer& renderer, Built& built, bool a
         for (const scene::Warning* w :
              {&description.passed_over, &description.clamped, &description.empty, &description.nonplanar})
             warn(options.scene, *w);
-    warn(options.scene, built.lost);
+    warn(options.scene, built.lost, "warnings"); // an object may have several
     warn(options.scene, built.unmoved, "warnings about '--moving'");
     return go_on;
 }
