@@ -233,12 +233,12 @@ class Options(Cli):
         self.assertEqual(self.run_qray("w.nff", "-q")[2], "")
         self.write("w.nff", view() + "s 0 0 0 1\ns 0 0 0 0")
         self.assertEqual(self.run_qray("w.nff")[2], "w.nff:3: warning: a sphere of radius 0, left out\n")
-        # Steps of 2^-16. Two of three balls fall together with one before; the last with two, and it is warnings that are counted.
+        # Steps of 2^-15. Two of three balls fall together with one before, the last with two: warnings are counted.
         self.write("w.nff", view() + "s 0 0 0 0.5\nmaterial colour 1 0 0\ns 0 0 0 0.50001\n"
                    "material colour 0 1 0\ns 0 0 0 0.50002\n")
         self.assertEqual(self.run_qray("w.nff", "-n", "q16")[2],
                          "w.nff:4: warning: a sphere falls together with another surface, that of line 2, 1e-05 off, "
-                         "where steps are 1.53e-05; 3 warnings in all\n")
+                         "where steps are 3.05e-05; 3 warnings in all\n")
         # A unit square with a corner 1/4 above it, across a box of a diagonal of 1.436; twice.
         bent = "p 4 0 0 0 1 0 0 1 1 0 0 1 0.25\n"
         self.write("w.nff", view() + bent + "p 4 0 0 0 1 0 0 1 1 0 0 1 0.01\n" + bent)
