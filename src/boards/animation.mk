@@ -22,7 +22,7 @@ FR_STEM     = build/frames/$(FR_NAME)-$(or $(NUMBER),q32)
 frames: build/qray
 	@mkdir -p build/frames
 	@build/qray compile $(SCENE) $(FW_OPTIONS) --moving $(FR_MOVES) -o $(FR_STEM).hpp
-	@$(CXX) $(filter-out -MMD -MP,$(FLAGS)) $(PROGRAM) -Ibuild/frames $(FR_DEFINES) \
+	@$(CXX) $(filter-out -MMD -MP,$(FLAGS)) $(PROGRAM) -Wno-maybe-uninitialized -Ibuild/frames $(FR_DEFINES) \
 	    -DQRAY_SCENE_HEADER='"$(FR_STEM).hpp"' -I. src/firmware/frames.cpp src/firmware/desktop.cpp -o $(FR_STEM)
 	@$(FR_STEM) > $(FR_STEM).part && mv $(FR_STEM).part $(FR_STEM).ppm
 	@echo "picture: $(FR_STEM).ppm"

@@ -13,9 +13,9 @@ object: build/qray
 	@mkdir -p $(OBJECT)
 	@build/qray compile '$(SCENE)' $(FW_OPTIONS) $(if $(MOVING),--moving '$(MOVING)') -o $(OBJECT)/scene.hpp
 	@cp src/package/c/qray_c.h $(OBJECT)
-	@$(OBJECT_CXX) -std=c++20 $(WARNINGS) $(PROGRAM) -ffp-contract=off -ffreestanding -ffunction-sections -fdata-sections \
-	    -Iinclude -DQRAY_SCENE_HEADER='"scene.hpp"' $(if $(FORMAT),-DQRAY_FORMAT='$(FORMAT)') \
-	    $(if $(MOVING),-DQRAY_MOVING) -I$(OBJECT) \
+	@$(OBJECT_CXX) -std=c++20 $(WARNINGS) -Wno-maybe-uninitialized $(PROGRAM) -ffp-contract=off -ffreestanding \
+	    -ffunction-sections -fdata-sections -Iinclude -I$(OBJECT) -DQRAY_SCENE_HEADER='"scene.hpp"' \
+	    $(if $(FORMAT),-DQRAY_FORMAT='$(FORMAT)') $(if $(MOVING),-DQRAY_MOVING) \
 	    -c src/package/c/qray_c.cpp -o $(OBJECT)/qray.o
 	@echo "$(OBJECT)/qray.o, and qray_c.h"
 .PHONY: package object

@@ -8,15 +8,14 @@ import json
 import math
 import os
 import statistics
-import subprocess
 import sys
 
 import figures
 import pictures
 import runs
-from programs import environment, fail, message_of, output_of
+from programs import fail, make, message_of, output_of
 from settings import BOARDS, board_facts, fixed_numbers
-from text import FIGURES, count, listed, table
+from tables import count, listed, table
 
 sys.path.insert(0, "src/boards/common")
 import run as boards_run  # noqa: E402
@@ -124,11 +123,10 @@ def costs(numbers):
         facts = board_facts(board)
         for number in numbers:
             image = f"build/{board}/steps-{number}.elf"
-            done = subprocess.run(["make", "--no-print-directory", image, f"BOARD={board}", f"NUMBER={number}",
-                                   "NAME=steps", "FW_MAIN=src/study/steps.cpp", f"FW_EXTRA=-DQRAY_NUMBER={number}"],
-                                  capture_output=True, text=True, env=environment())
-            if done.returncode != 0:
-                fail(message_of(done))
+            status, said = make(image, f"BOARD={board}", f"NUMBER={number}", "NAME=steps",
+                                "FW_MAIN=src/study/steps.cpp", f"FW_EXTRA=-DQRAY_NUMBER={number}")
+            if status != 0:
+                fail(message_of(said))
             ticks = boards_run.run_semihosting(facts["qemu"].split(), image, NOTHING, 60)
             calls, empty = ticks.pop("calls"), ticks.pop("nothing")
             out[board, number] = {name: (t - empty) * float(facts["tick"]) / calls for name, t in ticks.items()}
@@ -216,8 +214,8 @@ def study(folder, quick):
 def report():
     b = Bits(scenes(), SIZE)
     cost = costs(b.numbers)
-    figures.steps(b, cost, TARGET, f"{FIGURES}/steps.svg")
-    return f"""![Accuracy by step and bits]({FIGURES}/steps.svg)
+    figures.steps(b, cost, TARGET, f"{figures.FIGURES}/steps.svg")
+    return f"""![Accuracy by step and bits]({figures.FIGURES}/steps.svg)
 
 {sentences(b, cost)}
 

@@ -11,6 +11,7 @@ import pictures
 import runs
 import settings
 
+FIGURES = "src/study/figures"  # of the pages
 matplotlib.use("svg")
 # The same bytes at each run, and text that stays text.
 plt.rcParams.update({"svg.hashsalt": "qray", "svg.fonttype": "none", "font.size": 9, "axes.grid": True,

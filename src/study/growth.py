@@ -10,7 +10,7 @@ import runs
 from pictures import draw
 from programs import environment
 from settings import DEFAULT
-from text import FIGURES, count, table
+from tables import count, table
 
 FOLDER = "build/study/growth"
 SIZE = "32x24"
@@ -89,7 +89,7 @@ def report():
                for key, line in lines.items()}
     for number in NUMBERS:
         fitting["desktop", number] = {n: on_desktop(scene, number) for n, scene in grown.items()}
-    figures.growth(fitting, f"{FIGURES}/growth.svg")
+    figures.growth(fitting, f"{figures.FIGURES}/growth.svg")
 
     ends = ", ".join(f"{b} after {count(max(line))}" for (b, n), line in fitting.items()
                      if n == "q32" and len(line) < len(grown))
@@ -100,7 +100,7 @@ def report():
             + [count(rows[scene, b].result[f]) if "refused" not in rows[scene, b].result else "–"
                for b in BOARDS for f in FACTS] for name, scene in shown.items()]
     head = ["scene", "shapes"] + [f"{b} {f}" for b in BOARDS.values() for f in FACTS]
-    return (f"![Instructions a ray against the number of balls]({FIGURES}/growth.svg)\n\n"
+    return (f"![Instructions a ray against the number of balls]({figures.FIGURES}/growth.svg)\n\n"
             f"A ray in `q32` takes so many times the instructions of one among {count(first)} balls: {times}.\n"
             f"A line ends where the next scene is larger than the board's flash: {ends or 'none'}.\n\n"
             f"`q32`, {SIZE.replace('x', ' × ')} pixels:\n\n{table(head, made)}")

@@ -7,7 +7,7 @@ import os
 
 import runs
 from settings import fixed_numbers
-from text import count, table
+from tables import count, table
 
 FOLDER = "build/study/moving"
 WITHIN, TIMES, FRAMES = "-7,-1,-7,7,7,7", 16, 4

@@ -15,7 +15,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 import report  # noqa: E402
-from text import table  # noqa: E402
+from tables import table  # noqa: E402
 
 POV = ["balls_4", "gears_4", "mount_6", "rings_7", "teapot_12", "tetra_6", "tree_11"]
 EMBREE = ["balls_1", "balls_3", "balls_4", "balls_5", "teapot_12", "tetra_6", "tetra_8"]

@@ -3,14 +3,13 @@
 import json
 import math
 import os
-import re
 import subprocess
 import tempfile
 
 import numpy
 from PIL import Image
 
-from programs import output_of
+from programs import output_of, values
 
 
 def words(setting):
@@ -25,7 +24,7 @@ def draw(scene, size, setting, *more, to="/dev/null"):
     done = subprocess.run(["build/qray", scene, "-q", "--stats", "-s", size, *words(setting), *more, "-o", to],
                           capture_output=True, text=True)
     if done.returncode == 0:
-        return {k: float(v) for k, v in re.findall(r"^([\w/]+): ([\d.]+)$", done.stderr, re.M)}
+        return values(done.stderr)
 
 
 def read(path):

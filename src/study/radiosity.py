@@ -5,7 +5,7 @@ import os
 import pictures
 import runs
 from settings import DEFAULT
-from text import count, table
+from tables import count, table
 
 SCENE = "scenes/cornell.nff"
 EDGES = [1.2, 0.6, 0.3, 0.15]

@@ -17,7 +17,7 @@ import radiosity  # noqa: E402
 import runs  # noqa: E402
 import soft  # noqa: E402
 import text as texts  # noqa: E402
-from text import count, table  # noqa: E402
+from tables import count, table  # noqa: E402
 
 PAGES = ["README.md", "src/study/README.md"]
 FOLDER = "build/study"

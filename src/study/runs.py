@@ -15,7 +15,7 @@ import time
 
 import cycles
 from pictures import words
-from programs import environment, fail, message_of, output_of
+from programs import fail, make, message_of, output_of, values
 from settings import BOARDS, board_facts, boards, numbers  # noqa: F401
 
 CACHE = "build/study/cache"
@@ -116,9 +116,8 @@ class Run:
 
     def command(self, name):
         target = "size" if self.profile or self.build_only else "run"
-        return ["make", "--no-print-directory", target, f"BOARD={self.board}",
-                f"SCENE={self.scene}", f"NUMBER={self.number}", f"SIZE={self.size}", f"NAME={name}",
-                *(f"{k}={v}" for k, v in self.options.items())]
+        return [target, f"BOARD={self.board}", f"SCENE={self.scene}", f"NUMBER={self.number}", f"SIZE={self.size}",
+                f"NAME={name}", *(f"{k}={v}" for k, v in self.options.items())]
 
     def is_known(self, inputs):
         return os.path.exists(f"{CACHE}/{self.key(inputs)}.json")
@@ -145,11 +144,10 @@ class Run:
         return subprocess.run(check, capture_output=True).returncode == 1 or too_large is not None
 
     def measure(self, command):
-        done = subprocess.run(command, capture_output=True, text=True, env=environment(), errors="replace")
-        if done.returncode != 0:
-            return {"refused": message_of(done)}
-        values = {k: float(v) for k, v in re.findall(r"^([\w/]+): ([\d.]+)$", done.stdout, re.M)}
-        return {k: int(v) if v == int(v) else v for k, v in values.items()}
+        status, said = make(*command)
+        if status != 0:
+            return {"refused": message_of(said)}
+        return {k: int(v) if v == int(v) else v for k, v in values(said).items()}
 
 
 def perform(runs, inputs=None):

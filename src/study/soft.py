@@ -5,7 +5,7 @@ import os
 import pictures
 import runs
 from settings import DEFAULT
-from text import table
+from tables import table
 
 SCENE, SIZE = "scenes/soft.nff", "80x60"
 PLACES, MOST = [1, 2, 3, 4, 8], 16

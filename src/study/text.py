@@ -11,23 +11,9 @@ import pictures
 import runs
 import settings
 import study as study_file
+from figures import FIGURES
 from settings import DEFAULT
-
-FIGURES = "src/study/figures"
-
-
-def count(value):
-    return f"{round(value):,}".replace(",", " ")
-
-
-def table(head, rows):
-    """Markdown; the first column to the left, the others to the right."""
-    lines = ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 1)]
-    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
-
-
-def listed(words):
-    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+from tables import count, listed, table
 
 
 class Numbers:

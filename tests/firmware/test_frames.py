@@ -1,7 +1,6 @@
 """Animations on the boards: the desktop's bytes, frame by frame. From the top of the repository:
 python3 tests/firmware/test_frames.py; with --all, twenty frames of all of them on every board that counts."""
 
-import math
 import os
 import re
 import subprocess
@@ -9,8 +8,9 @@ import sys
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, "tests/firmware")
-from test_boards import make  # noqa: E402
+sys.path.insert(0, "src/study")
+import moving  # noqa: E402
+from programs import make  # noqa: E402
 
 ALL = "--all" in sys.argv
 FRAMES = 20 if ALL else 3
@@ -22,23 +22,12 @@ NUMBERS = ["q16", "q32", "float", "q24"]
 
 
 def scene():
-    """A ball, a cone, a polygon and a mesh with a tree, lit by one lamp."""
-    lines = ["v", "from 0 3 6", "at 0 1 0", "up 0 1 0", "angle 50", "hither 0", "resolution 24 18", "b 0.3 0.4 0.6",
-             "l 3 6 4", "f 0.8 0.8 0.8 0.8 0 0 0 1", "plane 0 0 0 0 1 0", "f 0.9 0.2 0.2 0.7 0.5 9 0 1",
-             "s -2 1 0 0.75", "f 0.2 0.8 0.3 0.8 0 0 0 1", "c 2 0.5 1 0.5 2 2 1 0.25",
-             "p 4 -1 2 -2 1 2 -2 1 4 -2 -1 4 -2", "f 0.3 0.4 0.9 0.8 0 0 0 1"]
-    # A ball of 2 x 12 + 24 triangles.
-    def at(ring, k):
-        polar, around = math.pi * ring / 4, 2 * math.pi * k / 12
-        n = (math.sin(polar) * math.cos(around), math.cos(polar), math.sin(polar) * math.sin(around))
-        return " ".join(f"{v:.4f}" for v in (1.5 * n[0], 1 + 0.75 * n[1], 2 + 0.75 * n[2]) + n)
-    for ring in range(4):
-        for k in range(12):
-            if ring < 3:
-                lines.append(f"pp 3 {at(ring, k)} {at(ring + 1, k)} {at(ring + 1, k + 1)}")
-            if 0 < ring < 3 and k % 2:
-                lines.append(f"pp 3 {at(ring, k)} {at(ring + 1, k + 1)} {at(ring, k + 1)}")
-    return "\n".join(lines) + "\n"
+    """That of the study: a ball, a cone, a polygon and a mesh with a tree, lit by one lamp; in colours."""
+    text = moving.scene("0 1 0")
+    for shape, material in (("s", "colour 0.9 0.2 0.2 highlight 0.5 shine 9"), ("c", "colour 0.2 0.8 0.3 highlight 0"),
+                            ("p", "colour 0.3 0.4 0.9")):
+        text = text.replace(f"\n{shape} ", f"\nmaterial {material} diffuse 0.8\n{shape} ", 1)
+    return text
 
 
 def contents(path):

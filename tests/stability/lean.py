@@ -22,7 +22,7 @@ sys.path.insert(0, "tests/firmware")
 import report  # noqa: E402
 import runs  # noqa: E402
 import test_catalogue  # noqa: E402
-from text import count, listed, table  # noqa: E402
+from tables import count, listed, table  # noqa: E402
 
 FOLDER = "build/lean"
 HEADERS = "tests/stability/lean"

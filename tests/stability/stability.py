@@ -16,7 +16,7 @@ import textwrap
 sys.dont_write_bytecode = True
 sys.path.insert(0, "src/study")
 import report  # noqa: E402
-from text import count, listed, table  # noqa: E402
+from tables import count, listed, table  # noqa: E402
 
 PROGRAM = "build/stability/stability"
 REGIMES = ["ordinary", "small and far", "grazing", "needle"]
