@@ -4,7 +4,6 @@ From the top of the repository: python3 tests/test_study.py"""
 import csv
 import os
 import re
-import subprocess
 import sys
 import types
 import unittest
@@ -19,13 +18,7 @@ import ladder  # noqa: E402
 import report  # noqa: E402
 import settings  # noqa: E402
 import study  # noqa: E402
-
-
-def make(*arguments):
-    environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
-    result = subprocess.run(os.environ.get("MAKE", "make").split() + list(arguments), env=environment,
-                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    return result.returncode, result.stdout
+from programs import make  # noqa: E402
 
 
 def problems(text, reports):

@@ -3,14 +3,13 @@ check_elf.py finds what it is for. From the top of the repository: python3 tests
 
 import os
 import re
-import subprocess
 import sys
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, "src/boards/common")
-sys.path.insert(0, "tests/firmware")
+sys.path[:0] = ["src/boards/common", "src/study", "tests/firmware"]
 import check_elf  # noqa: E402
+from programs import make, values  # noqa: E402
 
 BOARDS = ["microbit", "mps2_an385", "mps2_an386", "mps2_an500", "rv32_virt"]
 # Parts with these cores: what is theirs alone, memory, serial port and clock, takes a picture to see.
@@ -19,19 +18,6 @@ PARTS = ["lm3s6965evb", "netduinoplus2", "stm32vldiscovery"]
 
 def tools(board):
     return "riscv64-unknown-elf-" if board.startswith("rv32") else "arm-none-eabi-"
-
-
-def make(*arguments, **variables):
-    """(status, standard output and error) of make, with variables in its environment."""
-    environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
-    environment.update(variables)
-    result = subprocess.run(os.environ.get("MAKE", "make").split() + list(arguments), env=environment,
-                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    return result.returncode, result.stdout
-
-
-def values(text):
-    return {k: float(v) for k, v in re.findall(r"^([\w/]+): ([\d.]+)$", text, re.M)}
 
 
 def card(width, height):

@@ -10,9 +10,9 @@ import sys
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path[:0] = ["tests/firmware", "src/study"]
+sys.path.insert(0, "src/study")
+from programs import make  # noqa: E402
 from settings import board_facts  # noqa: E402
-from test_boards import make  # noqa: E402
 
 # What reject.hpp, base.hpp and the number systems do differently on a core each.
 IMAGES = [("microbit", "q32"), ("microbit", "q16"), ("microbit", "q24"), ("microbit", "float"), ("mps2_an385", "q32"),

@@ -10,10 +10,10 @@ import sys
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, "src/boards/common")
-sys.path.insert(0, "tests/firmware")
+sys.path[:0] = ["src/boards/common", "src/study", "tests/firmware"]
 import check_elf  # noqa: E402
-from test_boards import BOARDS, PARTS, make, tools  # noqa: E402
+from programs import make  # noqa: E402
+from test_boards import BOARDS, PARTS, tools  # noqa: E402
 
 BUDGETS = "tests/firmware/budgets.txt"
 OPTIONS = {"horizon": "SAMPLES=4", "castle": "ADAPTIVE=2", "mirrors": "DEPTH=9", "glass": "CUTOFF=0.02",

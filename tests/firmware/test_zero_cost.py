@@ -5,21 +5,20 @@ python3 tests/firmware/test_zero_cost.py"""
 import concurrent.futures
 import glob
 import itertools
-import json
 import os
 import re
 import shutil
-import subprocess
 import sys
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, "src/boards/common")
-sys.path.insert(0, "tests/firmware")
+sys.path[:0] = ["src/boards/common", "src/study", "tests/firmware"]
 import elf  # noqa: E402
 import reduce  # noqa: E402
+from programs import make  # noqa: E402
+from settings import told  # noqa: E402
 
-TOLD = json.loads(subprocess.run(["build/qray", "--describe"], stdout=subprocess.PIPE, check=True).stdout)
+TOLD = told()
 SHAPE, TEXTURE = TOLD["shapes"], TOLD["textures"]  # {name: (text, a place on it)}, {name: what stands behind its name}
 VIEW = "v from %s at 0 0 0 up 0 1 0 angle 40 hither 1 resolution 8 6\n"
 LIGHT = {"light": "l 3 4 5\n", "sun": "sun 1 2 3\n", "panel": "panel 2  3 4 5  0.5 0 0  0 0.2 0.5\n"}
@@ -70,13 +69,10 @@ def compile_scene(name, absent, include, level="-Og"):
     if os.path.exists(path):
         os.remove(path)
     sampling = ["SAMPLES=4"] if "grid" not in absent else ["ADAPTIVE=2"] if "adaptive" not in absent else []
-    environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
-    result = subprocess.run(
-        ["make", "--no-print-directory", "-o", "build/qray", path, "BOARD=microbit", f"NAME=zero_{name}",
-         f"SCENE={FOLDER}/{name}.nff", f"FW_INCLUDE={include}", f"FW_EXTRA=-g0 {level}", *sampling],
-        env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    if result.returncode != 0:
-        return result.stdout
+    status, said = make("-o", "build/qray", path, "BOARD=microbit", f"NAME=zero_{name}", f"SCENE={FOLDER}/{name}.nff",
+                        f"FW_INCLUDE={include}", f"FW_EXTRA=-g0 {level}", *sampling)
+    if status != 0:
+        return said
     found = elf.Elf(path)
     loaded = [(s.name, found.contents(s)) for s in found.sections
               if ("A" in s.flags and s.type != "NOBITS") or s.name.startswith(".rel.")]

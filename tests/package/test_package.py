@@ -6,7 +6,11 @@ import json
 import os
 import re
 import subprocess
+import sys
 import unittest
+
+sys.path.insert(0, "src/study")
+import programs  # noqa: E402
 
 FOLDER = os.path.abspath("build/package_test")
 PACKAGE = FOLDER + "/package/qray"
@@ -310,10 +314,13 @@ class Package(unittest.TestCase):
         os.utime(scene)
         self.assertIn(b"Generating", run("cmake", "--build", build))
 
+    def make(self, *arguments):
+        status, said = programs.make(*arguments)
+        self.assertEqual(status, 0, said)
+
     def test_c(self):
-        environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
-        arguments = ["make", "-o", "build/qray", "object", "SCENE=scenes/balls.nff", "SIZE=64x48", "FORMAT=Rgb565Big"]
-        run(*arguments, env=environment)
+        arguments = ["-o", "build/qray", "object", "SCENE=scenes/balls.nff", "SIZE=64x48", "FORMAT=Rgb565Big"]
+        self.make(*arguments)
         write("face.c", C)
         for compiler in (["gcc", "-std=c99"], ["g++", "-std=c++11", "-x", "c++"]):
             run(*compiler, "-pedantic", "-Wall", "-Wextra", "-Werror", "-Ibuild/object/balls", FOLDER + "/face.c", "-x",
@@ -322,7 +329,7 @@ class Package(unittest.TestCase):
         example = "".join(re.findall(r"^```c\n(.*?)^```$", read("src/package/README.md").decode(), re.M | re.S))
         run("gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-Ibuild/object/balls", "-fsyntax-only", "-x", "c", "-",
             input=b"#include <stdint.h>\nvoid show(uint32_t, const uint8_t*, uint32_t);\n" + example.encode())
-        run(*arguments, "BOARD=microbit", "NAME=face_m0", env=environment)
+        self.make(*arguments, "BOARD=microbit", "NAME=face_m0")
         symbols = run("arm-none-eabi-nm", "build/object/face_m0/qray.o").decode()
         self.assertEqual(set(re.findall(r" T (\w+)", symbols)), FACE)
         self.assertEqual([name for name in re.findall(r" U (\w+)", symbols)
@@ -337,12 +344,11 @@ class Package(unittest.TestCase):
             return write(f"{name}.nff", MOVING_SCENE.format(**places))
         path, within, out = scene("moving", (0, 0, 0)), "-7,-7,-7,7,7,9", "build/object/moving"
         program, other = write("moving.c", MOVING), write("moving.cpp", MOVING_CPP)
-        environment = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS")}
         for number in ("q32", "float"):
             with self.subTest(number=number):
-                arguments = ["make", "-o", "build/qray", "object", f"SCENE={path}", f"NUMBER={number}", "OPTIMISE=-O0",
+                arguments = ["-o", "build/qray", "object", f"SCENE={path}", f"NUMBER={number}", "OPTIMISE=-O0",
                              "MOVING=all", f"WITHIN={within}"]
-                run(*arguments, env=environment)
+                self.make(*arguments)
                 run("gcc", "-std=c11", "-pedantic", "-Wall", "-Wextra", "-Werror", "-I" + out, program,
                     out + "/qray.o", "-o", FOLDER + "/moving")
                 frames = run(FOLDER + "/moving")
@@ -354,7 +360,7 @@ class Package(unittest.TestCase):
                     expected = run("build/qray", scene(f"moving_{i}", by), "-q", "-n", number, "--within", within,
                                    "-o", "-")
                     self.assertEqual(frames[i * size:(i + 1) * size], expected)
-        run(*arguments, "BOARD=microbit", "NAME=moving_m0", env=environment)
+        self.make(*arguments, "BOARD=microbit", "NAME=moving_m0")
         symbols = run("arm-none-eabi-nm", "build/object/moving_m0/qray.o").decode()
         header = read("src/package/c/qray_c.h").decode()
         declared = set(re.findall(r"^(?:int|uint32_t|void) (qray_\w+)\(", header, re.M))
