@@ -59,22 +59,23 @@ endif
 FW_STEM := build/$(BOARD)/$(NAME)-$(NUMBER)
 FW_ELF  := $(FW_STEM)$(if $(filter uart,$(OUTPUT)),-uart).elf
 FW_OBJ  := $(FW_ELF:.elf=.obj)
+FW_OWN  := build/$(BOARD)/$(OUTPUT).obj
 FW_MAIN ?= src/firmware/$(if $(ANIMATION),frames,main).cpp
 FW_INCLUDE ?= include
 
 FW_COMPILE  := $(FW_OPTIONS) $(if $(ANIMATION),--moving $(FR_MOVES))
 FW_DEFINES  := $(FR_DEFINES) $(if $(SCENE),-DQRAY_SCENE_HEADER='"$(notdir $(FW_STEM)).hpp"',\
-    $(if $(SIZE),-DQRAY_WIDTH=$(word 1,$(FW_SIZE)) -DQRAY_HEIGHT=$(word 2,$(FW_SIZE))))
-FW_FLAGS    := -std=c++20 $(BOARD_CPU) $(BOARD_OPTIMISE) -g $(WARNINGS) -Wno-maybe-uninitialized \
-    -I$(FW_INCLUDE) -Isrc -Ibuild/$(BOARD) -ffreestanding \
+    $(if $(SIZE),-DQRAY_WIDTH=$(word 1,$(FW_SIZE)) -DQRAY_HEIGHT=$(word 2,$(FW_SIZE)))) \
+    -I$(FW_INCLUDE) -Ibuild/$(BOARD) $(FW_EXTRA)
+FW_FLAGS    := -std=c++20 $(BOARD_CPU) $(BOARD_OPTIMISE) -g $(WARNINGS) -Wno-maybe-uninitialized -Isrc -ffreestanding \
     -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-unwind-tables \
     -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -ffp-contract=off \
-    -fstack-usage -fcallgraph-info=su $(FW_EXTRA)
+    -fstack-usage -fcallgraph-info=su
 FW_LINK     := $(BOARD_CPU) -nostdlib -Wl,--gc-sections,--fatal-warnings \
     -L$(FW_SRC)/common -L$(FW_SRC) -T $(FW_SRC)/$(BOARD)/board.ld
 
 FW_COMMON := start memory $(BOARD_CORE) host_fault host_text
-FW_OBJS   := $(addprefix $(FW_OBJ)/,$(addsuffix .o,$(FW_COMMON) \
+FW_OBJS   := $(addprefix $(FW_OWN)/,$(addsuffix .o,$(FW_COMMON) \
     $(if $(filter uart,$(OUTPUT)),output_uart $(BOARD_UART),host_semihosting $(BOARD_COUNTER))))
 # The desktop draws the same picture, and counts its rays.
 FW_COUNT  := build/qray $(SCENE) $(FW_OPTIONS) -q --stats -o /dev/null 2>&1 | sed -n 's/^rays: //p'
@@ -82,8 +83,9 @@ FW_REPORT  = python3 $(FW_SRC)/common/run.py --tools $(BOARD_TOOLS) --tick $(BOA
     $(if $(UNBOUNDED),--unbounded) $(FW_ELF)
 
 # What the outputs were made with: a change of options remakes them.
-FW_CONFIG := $(SCENE) $(FW_COMPILE) $(FW_DEFINES) $(FW_FLAGS) $(FW_MAIN)
-$(FW_OBJ)/config: FORCE
+$(FW_OBJ)/config: FW_CONFIG = $(SCENE) $(FW_COMPILE) $(FW_DEFINES) $(FW_FLAGS) $(FW_MAIN)
+$(FW_OWN)/config: FW_CONFIG = $(FW_FLAGS)
+%/config: FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' '$(subst ','\'',$(FW_CONFIG))' | cmp -s - $@ || \
 	    printf '%s\n' '$(subst ','\'',$(FW_CONFIG))' > $@
@@ -96,9 +98,11 @@ endif
 
 $(FW_OBJ)/main.o: $(FW_MAIN) $(FW_OBJ)/config | firmware-tools
 	@$(BOARD_TOOLS)g++ $(FW_FLAGS) $(FW_DEFINES) -MMD -MP -c $< -o $@
-$(FW_OBJ)/%.o: $(FW_SRC)/common/%.cpp $(FW_OBJ)/config | firmware-tools
-	@$(BOARD_TOOLS)g++ $(FW_FLAGS) -MMD -MP -c $< -o $@
-$(FW_OBJ)/memory.o: FW_FLAGS += -fno-tree-loop-distribute-patterns
+# What is a board's own serves all its firmware. It appears only whole, whoever else makes it.
+$(FW_OWN)/%.o: $(FW_SRC)/common/%.cpp $(FW_OWN)/config | firmware-tools
+	@part=$$(mktemp -dp $(@D)) && $(BOARD_TOOLS)g++ $(FW_FLAGS) -MMD -MP -MT $@ -c $< -o $$part/$(@F) && \
+	    mv $$part/* $(@D) && rmdir $$part
+$(FW_OWN)/memory.o: FW_FLAGS += -fno-tree-loop-distribute-patterns
 
 FW_SCRIPTS := $(FW_SRC)/$(BOARD)/board.ld $(FW_SRC)/common/sections.ld
 # The linker takes three lines to say that a board is too small.
@@ -133,7 +137,7 @@ firmware-qemu:
 	$(call firmware-need,$(firstword $(BOARD_QEMU)),$(if $(filter %arm,$(firstword $(BOARD_QEMU))),\
 	    qemu-system-arm,qemu-system-misc))
 FORCE:
--include $(wildcard $(FW_OBJ)/*.d)
+-include $(wildcard $(FW_OBJ)/*.d $(FW_OWN)/*.d)
 else
 run size profile:
 	@echo "usage: make $@ BOARD=board SCENE=scenes/x.nff NUMBER=q32 [SIZE=64x48] [SAMPLES=4] [ADAPTIVE=2]" >&2

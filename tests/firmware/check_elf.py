@@ -1,5 +1,6 @@
-"""Checks linked firmware files, each at build/BOARD/SCENE-NUMBER[-uart].elf with its objects in a folder
-beside it, .obj for .elf. One line for each fault found; exit status 1 if there is one.
+"""Checks linked firmware files, each at build/BOARD/SCENE-NUMBER[-uart].elf with its object in a folder beside it, .obj
+for .elf, and those of its board in semihosting.obj or uart.obj. One line for each fault found; exit status 1 if there
+is one.
 
     check_elf.py --tools PREFIX [--budgets FILE] FILE.elf...
 
@@ -12,6 +13,7 @@ beside it, .obj for .elf. One line for each fault found; exit status 1 if there 
 """
 
 import argparse
+import glob
 import os
 import re
 import sys
@@ -87,18 +89,17 @@ def jump_cycles(program):
     return found
 
 
-def compiler_frames(folder):
+def compiler_frames(objects):
     """Frame bytes by symbol by the compiler's -fcallgraph-info=su, and names of frames of unknown size."""
     frames, dynamic = {}, []
-    for file in sorted(os.listdir(folder)):
-        if file.endswith(".ci"):
-            with open(os.path.join(folder, file)) as text:
-                for title, size, kind in re.findall(
-                        r'node: \{ title: "([^"]*)" label: "[^"]*\\n(\d+) bytes \(([a-z,]+)\)', text.read()):
-                    symbol = title.rsplit(":", 1)[-1]
-                    frames[symbol] = max(frames.get(symbol, 0), int(size))
-                    if kind != "static":
-                        dynamic.append(symbol)
+    for path in objects:
+        with open(path.removesuffix(".o") + ".ci") as text:
+            for title, size, kind in re.findall(
+                    r'node: \{ title: "([^"]*)" label: "[^"]*\\n(\d+) bytes \(([a-z,]+)\)', text.read()):
+                symbol = title.rsplit(":", 1)[-1]
+                frames[symbol] = max(frames.get(symbol, 0), int(size))
+                if kind != "static":
+                    dynamic.append(symbol)
     return frames, dynamic
 
 
@@ -122,15 +123,14 @@ def check(path, tools, budgets):
     uart = name.endswith("-uart.elf")
     scene, number = name.removesuffix(".elf").removesuffix("-uart").rsplit("-", 1)
     board = os.path.basename(folder)
-    objects = path.removesuffix(".elf") + ".obj"
+    objects = [object for of in (path.removesuffix(".elf"), f"{folder}/{'uart' if uart else 'semihosting'}")
+               for object in sorted(glob.glob(f"{of}.obj/*.o"))]
     frames, dynamic = compiler_frames(objects)
 
     defined = {s.name for s in elf.symbols if s.section != "UND"}
-    for file in sorted(os.listdir(objects)):
-        if file.endswith(".o"):  # a weak name left undefined leaves no trace in the linked file
-            weak = {s.name for s in elf_file.Elf(os.path.join(objects, file)).symbols
-                    if s.section == "UND" and s.bind == "WEAK"}
-            faults += [f"{symbol} is undefined" for symbol in sorted(weak - defined)]
+    for object in objects:  # a weak name left undefined leaves no trace in the linked file
+        weak = {s.name for s in elf_file.Elf(object).symbols if s.section == "UND" and s.bind == "WEAK"}
+        faults += [f"{symbol} is undefined" for symbol in sorted(weak - defined)]
 
     for s in elf.sections:
         if "A" in s.flags and s.size and s.name not in SECTIONS:
