@@ -935,7 +935,8 @@ TEST(Parser, RoomIsEnough) {
 // Meshes.
 
 TEST(ParserMesh, Forms) {
-    beside = {{"a.obj", "# a square, in all forms\nv 0 0 0\nv 1 0 0 1\nv 1 \\\n 1 \\\r\n\t0\nv 0 1 0\nvn 0 0 2\nvn 1 0 \\\n1\n"
+    beside = {{"a.obj", "# a square, in all forms\nv 0 0 0\nv 1 0 0 1\n"
+                        "v 1 \\\n 1 \\\r\n\t0\nv 0 1 0\nvn 0 0 2\nvn 1 0 \\\n1\n"
                         "vt 0 0\n"
                         "f 1 2 3 4\nf -4/1 2/1/1 -2 \\\n 4//1\nf 1//1 2/7/1 3//2 -1//-2\n\r\n"
                         "usemtl x \xc3\xb6 f\nf 4 4 1\nf 1 3 3\n"}};

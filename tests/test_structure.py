@@ -132,22 +132,21 @@ def test_lengths():
 
 
 def test_compile_alone(folder):
-    def compile_one(job):
-        compiler, name = job
+    """With g++: what a header forgets to include, no compiler finds; clang++ compiles them together, see below."""
+    def compile_one(name):
         path = os.path.join(folder, f"{name.replace('/', '_')}.cpp")
         with open(path, "w", encoding="utf-8") as file:
             file.write(f'#include <qray/{name}.hpp>\n#include <qray/{name}.hpp>\n')
-        result = run(compiler, *FLAGS, "-fsyntax-only", path)
+        result = run("g++", *FLAGS, "-fsyntax-only", path)
         if result.returncode == 0 and name in LANED:
-            result = run(compiler, *FLAGS, *LANES, "-fsyntax-only", path)
-        return [] if result.returncode == 0 else [f"{compiler} {name}.hpp:\n{result.stdout[:600]}"]
+            result = run("g++", *FLAGS, *LANES, "-fsyntax-only", path)
+        return [] if result.returncode == 0 else [result.stdout[:600]]
     for compiler in COMPILERS:
         if shutil.which(compiler) is None:
             check(f"{compiler} is there", [f"{compiler} was not found; `make deps` installs it"])
-            continue
-        with concurrent.futures.ThreadPoolExecutor(2) as pool:
-            for name, faults in zip(names(), pool.map(compile_one, [(compiler, n) for n in names()])):
-                check(f"{name}.hpp compiles alone with {compiler}", faults)
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        for name, faults in zip(names(), pool.map(compile_one, names())):
+            check(f"{name}.hpp compiles alone", faults)
 
 
 def test_standard(folder):

@@ -275,7 +275,9 @@ struct q16 : FixedNumbers<10, 14, 13, 13, 16> {
 private:
     QRAY_SHARED static constexpr bool quotient(int32_t num, int32_t den, int k, int32_t& t)
     {
-        const auto product = [](uint32_t n, uint32_t d) { return (((n >> 15) + 1) >> 1) * detail::reciprocal_short(d); };
+        const auto product = [](uint32_t n, uint32_t d) {
+            return (((n >> 15) + 1) >> 1) * detail::reciprocal_short(d);
+        };
         return detail::quotient_by<14>(product, num, den, Unit::frac + k, length_max.raw, t);
     }
 };
