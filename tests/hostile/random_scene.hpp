@@ -6,6 +6,8 @@
 #include <iterator>
 #include <string>
 
+#include <qray/scene/effects.hpp>
+
 #include "numbers.hpp"
 #include "scene/shapes.hpp"
 
