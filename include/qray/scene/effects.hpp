@@ -50,5 +50,6 @@ constexpr Effects everything(uint8_t depth)
     e.depth = depth;
     return e;
 }
+static_assert(everything(1).shapes() <= 8, "a shape's kind has 3 bits in a tree's entries: ShapeId, TreeEntry");
 
 } // namespace qray
