@@ -12,7 +12,6 @@ struct Brick {
     Vec<typename N::Unit> colour; // N, the mortar
     Lattice<N> lattice;           // y counts courses, two to a cell; offsets hold epsilon
 
-    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
     template <class Make>
     static Brick made(const Make& make)
     {

@@ -12,7 +12,6 @@ struct Checker {
     Vec<typename N::Unit> colour; // N
     Lattice<N> lattice;           // offsets hold epsilon
 
-    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
     template <class Make>
     static Checker made(const Make& make)
     {

@@ -15,7 +15,6 @@ struct Globe {
     int32_t shift;   // in [0, 30]; 0 in floating point
     Texels<N> texels;
 
-    // From what a scene's text says: `make` gives its centre and its file (src/scene/builder.hpp).
     template <class Make>
     static Globe made(const Make& make)
     {

@@ -12,7 +12,6 @@ struct Gradient {
     Vec<typename N::Unit> colour; // N
     LatticeAxis<N> axis;
 
-    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
     template <class Make>
     static Gradient made(const Make& make)
     {

@@ -13,7 +13,6 @@ struct Image {
     LatticeAxis<N> s, t;
     Texels<N> texels;
 
-    // From what a scene's text says: `make` gives its coordinates and its file (src/scene/builder.hpp).
     template <class Make>
     static Image made(const Make& make)
     {

@@ -21,7 +21,6 @@ struct Marble {
     Lattice<N> lattice;
     LatticeAxis<N> axis;
 
-    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
     template <class Make>
     static Marble made(const Make& make)
     {
@@ -41,7 +40,7 @@ struct Marble {
             z = twice<N>(z);
             auto n = noise<N>(x, y, z); // weight 2 / 2^octave
             for (int halving = 1; halving < octave; halving++)
-                n = half(n);
+                n = half<N>(n);
             v = wrap(v + n);
         }
         const auto two_v = v + v;
@@ -51,13 +50,6 @@ struct Marble {
 
 private:
     static constexpr typename N::Unit wrap(typename N::Unit v) { return v < N::one ? v : v - N::one; }
-    static constexpr typename N::Unit half(typename N::Unit v)
-    {
-        if constexpr (N::is_fixed)
-            return {v.raw >> 1};
-        else
-            return v / 2;
-    }
 };
 
 } // namespace qray

@@ -12,7 +12,6 @@ struct Noise {
     Vec<typename N::Unit> colour; // N
     Lattice<N> lattice;
 
-    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
     template <class Make>
     static Noise made(const Make& make)
     {

@@ -12,7 +12,6 @@ struct Rings {
     Vec<typename N::Unit> colour; // N
     LatticeAxis<N> x, z;
 
-    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
     template <class Make>
     static Rings made(const Make& make)
     {

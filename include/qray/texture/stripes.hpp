@@ -12,7 +12,6 @@ struct Stripes {
     Vec<typename N::Unit> colour; // N
     LatticeAxis<N> axis;          // offset holds epsilon
 
-    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
     template <class Make>
     static Stripes made(const Make& make)
     {

@@ -5,7 +5,8 @@
 
 namespace qray {
 
-// What stands behind a texture's name in a scene.
+// A texture is made of what a scene's text says: made(make), to which `make` gives its colour, its coordinates and its
+// file (src/scene/texture_builder.hpp). This stands behind its name there.
 enum class TextureText : uint8_t {
     cells,       // a colour, and a size
     cells_along, // and an axis

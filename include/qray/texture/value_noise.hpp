@@ -21,6 +21,15 @@ constexpr typename N::Unit lattice_noise(uint32_t x, uint32_t y, uint32_t z)
     }
 }
 
+template <class N>
+constexpr typename N::Unit half(typename N::Unit v)
+{
+    if constexpr (N::is_fixed)
+        return {v.raw >> 1};
+    else
+        return v / 2;
+}
+
 // 3 f^2 - 2 f^3.
 template <class N>
 constexpr typename N::Unit smoothstep(typename N::Unit f)

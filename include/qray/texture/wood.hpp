@@ -13,7 +13,6 @@ struct Wood {
     Lattice<N> lattice;
     LatticeAxis<N> e1, e2; // across the grain
 
-    // From what a scene's text says: `make` gives its colour and its coordinates (src/scene/builder.hpp).
     template <class Make>
     static Wood made(const Make& make)
     {
@@ -23,12 +22,7 @@ struct Wood {
     constexpr Vec<typename N::Unit> operator()(const Vec<typename N::Unit>& m, const Point<N>& q) const
     {
         const Cell<N> ring = radial_cell<N>(e1.bounded(q), e2.bounded(q), false);
-        auto n = noise<N>(lattice.x.cell(q.x), lattice.y.cell(q.y), lattice.z.cell(q.z));
-        if constexpr (N::is_fixed)
-            n = typename N::Unit{n.raw >> 1};
-        else
-            n = n / 2;
-        auto w = ring.inside + n;
+        auto w = ring.inside + half<N>(noise<N>(lattice.x.cell(q.x), lattice.y.cell(q.y), lattice.z.cell(q.z)));
         if (w >= N::one)
             w = w - N::one;
         return blend<N>(m, colour, N::unit(w * w));
