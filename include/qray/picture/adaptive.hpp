@@ -9,44 +9,6 @@ namespace qray {
 
 constexpr int max_adaptive_levels = 6;
 
-// Samples, each weighed by 4^k.
-template <class N>
-struct WeightedSum {
-    uint64_t r = 0, g = 0, b = 0;
-    constexpr void add(const Sample<N>& s, int k)
-    {
-        r += uint64_t{s.r} << 2 * k;
-        g += uint64_t{s.g} << 2 * k;
-        b += uint64_t{s.b} << 2 * k;
-    }
-    // Of weights that add up to 4^k, k >= 1; to the nearest.
-    constexpr Sample<N> mean(int k) const { return {mean(r, 2 * k), mean(g, 2 * k), mean(b, 2 * k)}; }
-
-private:
-    static constexpr uint32_t mean(uint64_t sum, int shift)
-    {
-        return static_cast<uint32_t>((sum + (uint64_t{1} << (shift - 1))) >> shift);
-    }
-};
-template <class N>
-    requires(!N::is_fixed)
-struct WeightedSum<N> {
-    using Level = typename Sample<N>::Level;
-    Level r = 0, g = 0, b = 0;
-    constexpr void add(const Sample<N>& s, int k)
-    {
-        const auto weight = static_cast<Level>(uint32_t{1} << 2 * k);
-        r += s.r * weight;
-        g += s.g * weight;
-        b += s.b * weight;
-    }
-    constexpr Sample<N> mean(int k) const
-    {
-        const auto share = Level(1) / static_cast<Level>(uint32_t{1} << 2 * k);
-        return {r * share, g * share, b * share};
-    }
-};
-
 // Is one of four values farther than the threshold from the mean of the other three? 3 times that difference
 // is 4 times the value less the sum of all. Exact in fixed point.
 template <class N>
@@ -68,7 +30,7 @@ template <class N, Effects E, class Count>
 constexpr Pixel adaptive_pixel(const Scene<N, E>& scene, int32_t x, int32_t y, Count& count)
 {
     const int levels = scene.levels.value;
-    WeightedSum<N> sum;
+    SampleSum<N> sum;
     // The square that is cut: its middle is odd multiples of 2^half, half its edge, from the pixel's corner.
     int half = levels;
     int32_t u = int32_t{1} << half, v = u;
@@ -97,7 +59,7 @@ constexpr Pixel adaptive_pixel(const Scene<N, E>& scene, int32_t x, int32_t y, C
         }
         while ((waiting & 15) == 0) {
             if (half == levels)
-                return pixel_of(sum.mean(levels));
+                return pixel_of(sum.mean_of_fours(levels));
             waiting >>= 4;
             half++;
             u = (u >> half | 1) * (int32_t{1} << half);

@@ -5,42 +5,6 @@
 
 namespace qray {
 
-// Sums of up to 2^24 samples.
-template <class N>
-struct SampleSum {
-    uint64_t r = 0, g = 0, b = 0;
-    constexpr void add(const Sample<N>& s)
-    {
-        r += s.r;
-        g += s.g;
-        b += s.b;
-    }
-    // To the nearest.
-    constexpr Sample<N> mean(uint32_t n) const { return {mean(r, n), mean(g, n), mean(b, n)}; }
-
-private:
-    static constexpr uint32_t mean(uint64_t sum, uint32_t n)
-    {
-        return static_cast<uint32_t>(divide(static_cast<int64_t>(sum), n, 0));
-    }
-};
-template <class N>
-    requires(!N::is_fixed)
-struct SampleSum<N> {
-    typename N::Colour r = 0, g = 0, b = 0;
-    constexpr void add(const Sample<N>& s)
-    {
-        r += s.r;
-        g += s.g;
-        b += s.b;
-    }
-    constexpr Sample<N> mean(uint32_t n) const
-    {
-        const auto k = static_cast<typename N::Colour>(n);
-        return {r / k, g / k, b / k};
-    }
-};
-
 template <class N, Effects E, class Count>
 constexpr Pixel grid_pixel(const Scene<N, E>& scene, int32_t x, int32_t y, Count& count)
 {

@@ -28,14 +28,19 @@ constexpr Pixel render_pixel(const Scene<N, E>& scene, uint32_t i, uint32_t j, C
 
 namespace detail {
 
-template <Effects E>
-constexpr bool one_moving_sample = E.moving && !E.grid && !E.adaptive && !E.panel;
-
-// A part of row j, from pixel x on, of a scene whose camera is in RAM: it is read once, and in fixed point a step to
-// the next pixel is a sum instead of products.
+// A part of row j, from pixel x on.
 template <class Format, class N, Effects E, class Count>
-constexpr void render_moving(const Scene<N, E>& scene, uint32_t x, uint32_t j, uint32_t width, uint8_t* out,
-                             Count& count)
+QRAY_INLINE constexpr void render_part(const Scene<N, E>& scene, uint32_t x, uint32_t j, uint32_t width, uint8_t* out,
+                                       Count& count)
+{
+    for (uint32_t i = 0; i < width; i++)
+        Format::put(render_pixel(scene, x + i, j, count), x + i, j, out + i / Format::pixels * Format::bytes);
+}
+// The same of a scene whose camera is in RAM: it is read once, and in fixed point a step to the next pixel is a sum
+// instead of products.
+template <class Format, class N, Effects E, class Count>
+    requires(E.moving && !E.grid && !E.adaptive && !E.panel)
+constexpr void render_part(const Scene<N, E>& scene, uint32_t x, uint32_t j, uint32_t width, uint8_t* out, Count& count)
 {
     const Camera<N>& c = scene.camera;
     const int32_t left = 2 * static_cast<int32_t>(x) + 1 - c.width, down = 2 * static_cast<int32_t>(j) + 1 - c.height;
@@ -66,10 +71,7 @@ constexpr void render_row(const Scene<N, E>& scene, uint32_t j, uint8_t* out, Co
         }
         return;
     }
-    if constexpr (detail::one_moving_sample<E>)
-        return detail::render_moving<Format>(scene, 0, j, scene.camera.width, out, count);
-    for (uint32_t i = 0; i < scene.camera.width; i++)
-        Format::put(render_pixel(scene, i, j, count), i, j, out + i / Format::pixels * Format::bytes);
+    detail::render_part<Format>(scene, 0, j, scene.camera.width, out, count);
 }
 
 // The rectangle with corner (x, y), which lies in the picture, into out: row_bytes<Format>(width) bytes for each of its
@@ -79,12 +81,7 @@ constexpr void render_rect(const Scene<N, E>& scene, uint32_t x, uint32_t y, uin
                            uint8_t* out, Count&& count = Count{})
 {
     for (uint32_t j = 0; j < height; j++, out += row_bytes<Format>(width))
-        if constexpr (detail::one_moving_sample<E>)
-            detail::render_moving<Format>(scene, x, y + j, width, out, count);
-        else
-            for (uint32_t i = 0; i < width; i++)
-                Format::put(render_pixel(scene, x + i, y + j, count), x + i, y + j,
-                            out + i / Format::pixels * Format::bytes);
+        detail::render_part<Format>(scene, x, y + j, width, out, count);
 }
 
 // All rows from the top, through the caller's buffer of `rows` rows, 1 or more, to

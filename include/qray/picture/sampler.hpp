@@ -53,6 +53,47 @@ struct Sample<N> {
     }
 };
 
+// Samples, each weighed by 4^k: of weights that add up to 2^24 at most.
+template <class N>
+struct SampleSum {
+    using Sum = ByNumber<N, uint64_t, typename N::Colour>;
+    Sum r = 0, g = 0, b = 0;
+    constexpr void add(const Sample<N>& s, int k = 0)
+    {
+        const auto weighed = [k](Sum v) {
+            if constexpr (N::is_fixed)
+                return v << 2 * k;
+            else
+                return v * static_cast<Sum>(uint32_t{1} << 2 * k);
+        };
+        r += weighed(s.r);
+        g += weighed(s.g);
+        b += weighed(s.b);
+    }
+    // Where they add up to n, to the nearest.
+    constexpr Sample<N> mean(uint32_t n) const
+    {
+        const auto part = [n](Sum sum) {
+            if constexpr (N::is_fixed)
+                return static_cast<uint32_t>(divide(static_cast<int64_t>(sum), n, 0));
+            else
+                return sum / static_cast<Sum>(n);
+        };
+        return {part(r), part(g), part(b)};
+    }
+    // Where they add up to 4^k, k >= 1, without a division.
+    constexpr Sample<N> mean_of_fours(int k) const
+    {
+        const auto part = [k](Sum sum) {
+            if constexpr (N::is_fixed)
+                return static_cast<uint32_t>((sum + (Sum{1} << (2 * k - 1))) >> 2 * k);
+            else
+                return sum * (1 / static_cast<Sum>(uint32_t{1} << 2 * k));
+        };
+        return {part(r), part(g), part(b)};
+    }
+};
+
 template <class N, Effects E>
 QRAY_INLINE constexpr Ray<N> eye_ray(const Scene<N, E>& scene, const Pencil<N>& at)
 {
