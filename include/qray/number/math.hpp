@@ -172,20 +172,27 @@ QRAY_INLINE constexpr uint32_t isqrt(int64_t x)
     return detail::isqrt_by_rsqrt(static_cast<uint64_t>(x));
 }
 
+namespace detail {
+
+// 2^8 sqrt(v) for v in [2^30, 2^32), to 2^-21 of itself.
+QRAY_INLINE constexpr uint32_t root_of_top(uint32_t v)
+{
+    const uint32_t y = rsqrt_seed(v), root = (v >> 16) * y >> 12;
+    // One Newton step: root + (v - root^2) y / 2.
+    const int32_t rest = static_cast<int32_t>(v - root * root) >> 4;
+    return (root << 8) + static_cast<uint32_t>(rest * static_cast<int32_t>(y) >> 17);
+}
+
+} // namespace detail
+
 // The integer nearest to sqrt(x); at most 2^16.
 constexpr uint32_t isqrt(uint32_t x)
 {
     if (x == 0)
         return 0;
-    int pairs = leading_zero_pairs(x);
-    uint32_t v = x << (2 * pairs);
-    uint32_t y = detail::rsqrt_seed(v);
-    uint32_t root = (v >> 16) * y >> 12;
-    // One Newton step: root + (v - root^2) y / 2, in Q.24.
-    int32_t rest = static_cast<int32_t>(v - root * root) >> 4;
-    root = (root << 8) + static_cast<uint32_t>(rest * static_cast<int32_t>(y) >> 17);
-    root = ((root >> (7 + pairs)) + 1) >> 1;
-    rest = static_cast<int32_t>(x - root * root);
+    const int pairs = leading_zero_pairs(x);
+    uint32_t root = ((detail::root_of_top(x << (2 * pairs)) >> (7 + pairs)) + 1) >> 1;
+    const int32_t rest = static_cast<int32_t>(x - root * root);
     if (rest > static_cast<int32_t>(root))
         root++;
     else if (rest <= -static_cast<int32_t>(root))

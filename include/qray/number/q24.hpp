@@ -78,10 +78,7 @@ constexpr int32_t root_split(uint32_t x)
     if (x == 0)
         return 0;
     const int pairs = leading_zero_pairs(x);
-    const uint32_t v = x << (2 * pairs), y = rsqrt_seed(v), root = (v >> 16) * y >> 12;
-    const int32_t rest = static_cast<int32_t>(v - root * root) >> 4;
-    const uint32_t finer = (root << 8) + static_cast<uint32_t>(rest * static_cast<int32_t>(y) >> 17); // Q.24
-    return static_cast<int32_t>(((finer >> (4 + pairs)) + 1) >> 1);
+    return static_cast<int32_t>(((root_of_top(x << (2 * pairs)) >> (4 + pairs)) + 1) >> 1);
 }
 
 } // namespace detail

@@ -24,7 +24,7 @@ QRAY_INLINE constexpr bool surely_missed(const Disc<N>& s, const RejectRay<N>& r
 }
 
 template <class N>
-constexpr bool reaches(const Disc<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length distance)
+QRAY_INLINE constexpr bool reaches(const Disc<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length distance)
 {
     const Point<N> w = saturating_sub<N>(along<N>(distance, ray.direction), s.centre - ray.origin);
     return !outside_cube<N>(w, s.radius) && !beyond<N>(w, s.radius);
@@ -32,17 +32,13 @@ constexpr bool reaches(const Disc<N>& s, const Corners<N>&, const Ray<N>& ray, t
 
 // t in (0, limit], or false. The disc that the ray starts on does not count.
 template <bool Near = false, class N>
-QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Corners<N>&, const Ray<N>& ray, typename N::Length limit,
-                                     typename N::Length& t, Local<N>&)
+QRAY_INLINE constexpr bool intersect(const Disc<N>& s, const Corners<N>& corners, const Ray<N>& ray,
+                                     typename N::Length limit, typename N::Length& t, Local<N>&)
 {
     if (ray.from == s.tag)
         return false;
-    const Point<N> v = s.centre - ray.origin;
-    if (!intersect_plane<N>(dot_normal<N>(v, s.normal), dot_normal<N>(ray.direction, s.normal), limit, t))
-        return false;
-    const Point<N> a = along<N>(t, ray.direction);
-    const Point<N> w = saturating_sub<N>(a, v);
-    return !outside_cube<N>(w, s.radius) && !beyond<N>(w, s.radius);
+    const auto height = dot_normal<N>(s.centre - ray.origin, s.normal);
+    return intersect_plane<N>(height, dot_normal<N>(ray.direction, s.normal), limit, t) && reaches(s, corners, ray, t);
 }
 
 // How often the ray crosses the disc strictly between its origin and a light at `distance`: 0 or 1.

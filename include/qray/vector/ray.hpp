@@ -73,31 +73,29 @@ struct alignas(8) Rounded<N> { // to be read at once
     int16_t x, y, z;
 };
 
+template <InParts N>
+QRAY_INLINE constexpr Point<N> lengths_of(const Rounded<N>& rounded)
+{
+    return {{rounded.x}, {rounded.y}, {rounded.z}};
+}
+
 // p as seen from the exact point.
 template <class N>
 QRAY_INLINE constexpr Point<N> from_exact(const Point<N>& p, [[maybe_unused]] const Rounded<N>& rounded)
 {
-    if constexpr (FixedLanes<N>) {
+    if constexpr (WideFixed<N>)
         return p + lengths_of<N>(rounded);
-    } else if constexpr (WideFixed<N>) {
-        using Length = typename N::Length;
-        return p + Point<N>{Length{rounded.x}, Length{rounded.y}, Length{rounded.z}};
-    } else {
+    else
         return p;
-    }
 }
 // And back.
 template <class N>
 QRAY_INLINE constexpr Point<N> from_rounded(const Point<N>& p, [[maybe_unused]] const Rounded<N>& rounded)
 {
-    if constexpr (FixedLanes<N>) {
+    if constexpr (WideFixed<N>)
         return p - lengths_of<N>(rounded);
-    } else if constexpr (WideFixed<N>) {
-        using Length = typename N::Length;
-        return p - Point<N>{Length{rounded.x}, Length{rounded.y}, Length{rounded.z}};
-    } else {
+    else
         return p;
-    }
 }
 
 } // namespace qray
