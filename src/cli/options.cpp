@@ -144,7 +144,7 @@ constexpr Option table[] = {
      [](Options& o, const char* v) {
          return whole(v, 2, 8, o.settings.light_bits) && (o.settings.light_bits & (o.settings.light_bits - 1)) == 0;
      }},
-    {"--within", "BOX", all, "where things will be: a box around the scene, for its scale (x,y,z,x,y,z)",
+    {"--within", "BOX", all, "where things will be: a box, for the scale and planes' ends (x,y,z,x,y,z)",
      "two corners of a box, X,Y,Z,X,Y,Z", take_within},
     {"--moving", "WHAT", compile, moving_help.text, moving_expected.text,
      [](Options& o, const char* v) { return scene::read_moving(v, o.settings.moving); }},
