@@ -66,8 +66,9 @@ FW_INCLUDE ?= include
 FW_COMPILE  := $(FW_OPTIONS) $(if $(ANIMATION),--moving $(FR_MOVES))
 FW_DEFINES  := $(FR_DEFINES) $(if $(SCENE),-DQRAY_SCENE_HEADER='"$(notdir $(FW_STEM)).hpp"',\
     $(if $(SIZE),-DQRAY_WIDTH=$(word 1,$(FW_SIZE)) -DQRAY_HEIGHT=$(word 2,$(FW_SIZE)))) \
-    -I$(FW_INCLUDE) -Ibuild/$(BOARD) $(FW_EXTRA)
-FW_FLAGS    := -std=c++20 $(BOARD_CPU) $(BOARD_OPTIMISE) -g $(WARNINGS) -Wno-maybe-uninitialized -Isrc -ffreestanding \
+    -I$(FW_INCLUDE) -Ibuild/$(BOARD) $(if $(filter profile,$(MAKECMDGOALS)),-g) $(FW_EXTRA)
+# To say where variables are takes a compiler a quarter of its time; of use only to see where instructions go.
+FW_FLAGS    := -std=c++20 $(BOARD_CPU) $(BOARD_OPTIMISE) -g1 $(WARNINGS) -Wno-maybe-uninitialized -Isrc -ffreestanding \
     -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-unwind-tables \
     -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -ffp-contract=off \
     -fstack-usage -fcallgraph-info=su

@@ -117,7 +117,7 @@ class Run:
     def command(self, name):
         target = "size" if self.profile or self.build_only else "run"
         return [target, f"BOARD={self.board}", f"SCENE={self.scene}", f"NUMBER={self.number}", f"SIZE={self.size}",
-                f"NAME={name}", *(f"{k}={v}" for k, v in self.options.items())]
+                f"NAME={name}", *(f"{k}={v}" for k, v in self.options.items()), *(["FW_EXTRA=-g"] * self.profile)]
 
     def is_known(self, inputs):
         return os.path.exists(f"{CACHE}/{self.key(inputs)}.json")
