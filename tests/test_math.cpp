@@ -83,13 +83,17 @@ TEST(Math, RootOf32BitsIsNearest) {
 }
 
 // 1 / sqrt(x), of which the tracer's roots are made; x = 0 is taken for 1.
-Scaled rsqrt(uint64_t x) {
+struct InverseRoot {
+    uint32_t mantissa;
+    int exponent;
+};
+InverseRoot rsqrt(uint64_t x) {
     const detail::Normal v = detail::normalise_even(x);
     return {detail::rsqrt_mantissa(v.high, v.low), v.half - 63};
 }
 
 void expect_inverse_root(uint64_t x) {
-    const Scaled r = rsqrt(x);
+    const InverseRoot r = rsqrt(x);
     ASSERT_GE(r.mantissa, 0x80000000u) << x;
     const long double error = std::ldexp(static_cast<long double>(r.mantissa), r.exponent)
             * std::sqrt(static_cast<long double>(x)) - 1;

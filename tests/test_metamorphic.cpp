@@ -11,11 +11,7 @@ template <class N>
 struct Metamorphic : ::testing::Test {};
 TYPED_TEST_SUITE(Metamorphic, NumberSystems, SystemNames);
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int size = 32;
-#else
 constexpr int size = 96;
-#endif
 
 using Write = void (*)(SceneText&);
 
