@@ -25,7 +25,7 @@ all: build/qray
 
 # The command. Linked statically, it starts in 40 thousand instructions instead of two million.
 LIBRARY := $(patsubst %.cpp,build/obj/%.o,$(wildcard src/scene/*.cpp))
-LANED   := build/obj/src/cli/lanes_float.o build/obj/src/cli/lanes_q32.o
+LANED   := $(patsubst %.cpp,build/obj/%.o,$(wildcard src/cli/lanes_*.cpp))
 PLAIN   := $(filter-out $(LANED),$(patsubst %.cpp,build/obj/%.o,$(wildcard src/cli/*.cpp))) $(LIBRARY)
 # On x86-64, float and q32 also with vectors in AVX2's registers, taken where the processor has them. What headers define
 # inline is compiled in two ways then, so all of it but the renderer is made local.

@@ -40,8 +40,8 @@ endif
 ifneq ($(if $(SCENE),$(wildcard $(SCENE)),-),$(or $(SCENE),-))
 $(error there is no scene $(SCENE))
 endif
-ifeq ($(filter q16 q24 q32 float double,$(NUMBER)),)
-$(error NUMBER=$(NUMBER): expected q16, q24, q32, float or double)
+ifeq ($(filter $(patsubst src/cli/kernel_%.cpp,%,$(wildcard src/cli/kernel_*.cpp)),$(NUMBER)),)
+$(error NUMBER=$(NUMBER): expected $(shell sed -n 's/.*_SAID "\(.*\)"/\1/p' src/scene/numbers.hpp))
 endif
 ifeq ($(filter semihosting uart,$(OUTPUT)),)
 $(error OUTPUT=$(OUTPUT): expected uart, or none)

@@ -79,12 +79,14 @@ struct Storage {
     // Cuts empty tables from the room where it is large enough; returns how many bytes it must have.
     size_t lay_out(const Description& d, bool compiled)
     {
-        uint32_t shapes[everything(1).shapes()] = {}, all = 0;
-        for (uint32_t i = 0; i < d.object_count; i++) {
-            const uint32_t surfaces = surfaces_of(d.objects[i]);
-            shapes[static_cast<int>(d.objects[i].kind)] += surfaces;
-            all += surfaces;
-        }
+        uint32_t shapes[everything(1).shapes()] = {}, flat = 0, smooth = 0, all = 0; // flat, smooth: with corners
+        for (uint32_t i = 0; i < d.object_count; i++)
+            with_shape_of<N>(d.objects[i].kind, [&, &o = d.objects[i]]<class Shape>(auto host) {
+                const uint32_t surfaces = host.surfaces_of(o);
+                shapes[static_cast<int>(o.kind)] += surfaces;
+                (Shape::is_smooth ? smooth : flat) += Shape::has_corners ? surfaces : 0;
+                all += surfaces;
+            });
         return lay_out_in(room, [&](Layout& layout) {
             const auto cut = [&layout]<class T>(Array<T>& table, uint32_t most) { table = {0, layout.array<T>(most)}; };
 #define QRAY_CUT(Type, name, table) cut(table, shapes[static_cast<int>(Kind::name)]);
@@ -93,8 +95,8 @@ struct Storage {
             // For compiled scenes alone: see lean.hpp, flatten.hpp. A patch that lean.hpp takes in part
             // has its corners twice.
             const uint32_t once = compiled;
-            cut(triangles, once * shapes[static_cast<int>(Kind::polygon)]);
-            cut(smooth_triangles, once * shapes[static_cast<int>(Kind::patch)]);
+            cut(triangles, once * flat);
+            cut(smooth_triangles, once * smooth);
             cut(corner_slots, once * (2 * d.vertex_count + 1));
             cut(entries, 1 + once * 2 * all);
             cut(order, all);
