@@ -7,6 +7,14 @@
 
 namespace qray {
 
+// Adds a part k of light to a sum.
+template <class N>
+QRAY_INLINE constexpr void saturating_add(Vec<typename N::Colour>& sum, const Vec<typename N::Colour>& light,
+                                          typename N::Unit k)
+{
+    saturating_add<N>(sum, scaled<N>(k, light));
+}
+
 // Is a longer than r?
 template <class N>
 QRAY_INLINE constexpr bool beyond(const Vec<typename N::Length>& a, typename N::Length r)

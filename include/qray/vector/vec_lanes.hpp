@@ -55,6 +55,21 @@ private:
     static constexpr uint64_t word(Number v) { return static_cast<uint32_t>(v.raw); }
 };
 
+// Products of a number, or of numbers, and what has a Unit's bits behind the point: rounded once.
+template <FloatLanes N>
+QRAY_INLINE Float4 product(Float4 a, Float4 b)
+{
+    return a * b;
+}
+template <FixedLanes N>
+QRAY_INLINE Word4 product(Word4 a, Word4 b)
+{
+    return lane_rounded(lane_mul(a, b), N::Unit::frac);
+}
+QRAY_INLINE Float4 all_lanes(float k) { return Float4{k, k, k, k}; }
+template <int Frac>
+QRAY_INLINE Word4 all_lanes(Fixed<Frac, 32> k) { return words(all_halves(k.raw)); }
+
 template <FloatLanes N, class A, class B>
 QRAY_INLINE float dot(const Vec<A>& a, const Vec<B>& b)
 {
@@ -66,42 +81,26 @@ QRAY_INLINE auto dot(const Vec<A>& a, const Vec<B>& b)
     return Wide<A::frac + B::frac, 32>{lane_sum(lane_mul(a.lanes, b.lanes))};
 }
 
-template <FloatLanes N>
-QRAY_INLINE float norm2(const Vec<typename N::Length>& a)
-{
-    return lane_dot(a.lanes, a.lanes);
-}
-template <FixedLanes N>
+template <AnyLanes N>
 QRAY_INLINE auto norm2(const Vec<typename N::Length>& a)
 {
     return dot<N>(a, a);
 }
 
-template <FloatLanes N>
-QRAY_INLINE Vec<float> along(typename N::Length t, const Vec<typename N::Unit>& d)
-{
-    return Vec<float>(t * d.lanes);
-}
-template <FixedLanes N>
+template <AnyLanes N>
 QRAY_INLINE auto along(typename N::Length t, const Vec<typename N::Unit>& d)
 {
-    return Vec<typename N::Length>(lane_rounded(lane_mul(t.raw, d.lanes), N::Unit::frac));
+    return Vec<typename N::Length>(product<N>(all_lanes(t), d.lanes));
 }
-
-template <FloatLanes N>
-QRAY_INLINE Vec<float> scaled(typename N::Unit k, const Vec<typename N::Unit>& d)
+template <AnyLanes N, class T>
+QRAY_INLINE Vec<T> scaled(typename N::Unit k, const Vec<T>& v)
 {
-    return Vec<float>(k * d.lanes);
+    return Vec<T>(product<N>(all_lanes(k), v.lanes));
 }
-template <FixedLanes N>
-QRAY_INLINE auto scaled(typename N::Unit k, const Vec<typename N::Unit>& d)
+template <AnyLanes N>
+QRAY_INLINE auto filtered(const Vec<typename N::Colour>& light, const Vec<typename N::Unit>& m)
 {
-    return Vec<typename N::Unit>(lane_rounded(lane_mul(k.raw, d.lanes), N::Unit::frac));
-}
-template <FixedLanes N>
-QRAY_INLINE auto scaled(typename N::Unit k, const Vec<typename N::Colour>& c)
-{
-    return Vec<typename N::Colour>(lane_rounded(lane_mul(k.raw, c.lanes), N::Unit::frac));
+    return Vec<typename N::Colour>(product<N>(light.lanes, m.lanes));
 }
 
 template <FloatLanes N>
@@ -189,11 +188,6 @@ QRAY_INLINE void saturating_add(Vec<typename N::Colour>& sum, const Vec<typename
     const UnsignedHalf8 most = unsigned_halves(all_words(INT32_MAX));
     sum = Vec<typename N::Colour>(reinterpret_cast<Word4>(added < most ? added : most));
 }
-template <AnyLanes N>
-QRAY_INLINE void saturating_add(Vec<typename N::Colour>& sum, const Vec<typename N::Colour>& light, typename N::Unit k)
-{
-    saturating_add<N>(sum, scaled<N>(k, light));
-}
 
 template <FloatLanes N>
 QRAY_INLINE Vec<float> ratio(const Vec<float>& v, float inverse_r)
@@ -206,17 +200,6 @@ QRAY_INLINE auto ratio(const Vec<typename N::Length>& v, typename N::Scale inver
     const int up = inverse_r.shift;
     const Word4 w = up >= 0 ? v.lanes << up : words(halves(v.lanes) >> -up);
     return Vec<typename N::Unit>(lane_rounded(lane_mul(inverse_r.mantissa, w), 61 - N::Unit::frac));
-}
-
-template <FloatLanes N>
-QRAY_INLINE Vec<float> filtered(const Vec<float>& light, const Vec<float>& m)
-{
-    return Vec<float>(light.lanes * m.lanes);
-}
-template <FixedLanes N>
-QRAY_INLINE auto filtered(const Vec<typename N::Colour>& light, const Vec<typename N::Unit>& m)
-{
-    return Vec<typename N::Colour>(lane_rounded(lane_mul(light.lanes, m.lanes), N::Unit::frac));
 }
 
 template <FixedLanes N>
@@ -258,12 +241,6 @@ QRAY_INLINE bool outside_cube(const Vec<typename N::Length>& v, typename N::Leng
 {
     const Half8 w = halves(v.lanes), edge = all_halves(r.raw);
     return any_of_three((w > edge) | (w < -edge));
-}
-
-template <FloatLanes N>
-QRAY_INLINE bool outside_cube(const Vec<float>&, float)
-{
-    return false;
 }
 
 // Three 16-bit integers, of a type aligned to 8 bytes.
@@ -308,11 +285,6 @@ QRAY_INLINE bool sum_of_cells(const Step& x, const Step& y, const Step& z, const
     const Signed4 whole = __builtin_convertvector(lane_floor(p), Signed4);
     sum = static_cast<uint32_t>(whole[0] ^ whole[1] ^ whole[2]) ^ x.index ^ y.index ^ z.index;
     return true;
-}
-template <FixedLanes N, class Step>
-QRAY_INLINE bool sum_of_cells(const Step&, const Step&, const Step&, const Vec<typename N::Length>&, uint32_t&)
-{
-    return false;
 }
 
 template <FloatLanes N>

@@ -39,11 +39,11 @@ inline constexpr bool in_lanes = QRAY_LANES && (WideFixed<N> || SingleFloat<N>);
 template <class N>
 concept InParts = !in_lanes<N>;
 template <class N>
+concept AnyLanes = in_lanes<N>;
+template <class N>
 concept FloatLanes = in_lanes<N> && !N::is_fixed;
 template <class N>
 concept FixedLanes = in_lanes<N> && N::is_fixed;
-template <class N>
-concept AnyLanes = in_lanes<N>;
 
 // Exact in fixed point.
 template <InParts N, class A, class B>
@@ -105,7 +105,8 @@ QRAY_INLINE constexpr Vec<typename N::Length> coarse(const Vec<typename N::Lengt
 }
 
 // Is any component beyond +-r? In fixed point, of what is not, sums of squares fit; others do without.
-template <InParts N>
+template <class N>
+    requires(!FixedLanes<N>)
 QRAY_INLINE constexpr bool outside_cube([[maybe_unused]] const Vec<typename N::Length>& w,
                                         [[maybe_unused]] typename N::Length r)
 {
@@ -117,7 +118,8 @@ QRAY_INLINE constexpr bool outside_cube([[maybe_unused]] const Vec<typename N::L
 
 // Of lattice.hpp, a number that is odd where the sum of a point's three cells is: where one question tells for all
 // three that they fit a word. False where they must be found one by one.
-template <InParts N, class Step>
+template <class N, class Step>
+    requires(!FloatLanes<N>)
 QRAY_INLINE constexpr bool sum_of_cells([[maybe_unused]] const Step& x, [[maybe_unused]] const Step& y,
                                         [[maybe_unused]] const Step& z,
                                         [[maybe_unused]] const Vec<typename N::Length>& q,
@@ -237,7 +239,7 @@ QRAY_INLINE constexpr void add_scaled(Vec<typename N::Colour>& sum, typename N::
     sum.z += N::colour(light.z * k);
 }
 
-// Adds light, whole or a part k of it, to a sum; each component, none of which is negative, clamped.
+// Adds light to a sum; each component, none of which is negative, clamped.
 template <InParts N>
 QRAY_INLINE constexpr void saturating_add(Vec<typename N::Colour>& sum, const Vec<typename N::Colour>& light)
 {
@@ -245,13 +247,4 @@ QRAY_INLINE constexpr void saturating_add(Vec<typename N::Colour>& sum, const Ve
     sum.y = N::saturating_add(sum.y, light.y);
     sum.z = N::saturating_add(sum.z, light.z);
 }
-template <InParts N>
-QRAY_INLINE constexpr void saturating_add(Vec<typename N::Colour>& sum, const Vec<typename N::Colour>& light,
-                                          typename N::Unit k)
-{
-    sum.x = N::saturating_add(sum.x, N::colour(light.x * k));
-    sum.y = N::saturating_add(sum.y, N::colour(light.y * k));
-    sum.z = N::saturating_add(sum.z, N::colour(light.z * k));
-}
-
 } // namespace qray
