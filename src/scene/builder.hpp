@@ -76,18 +76,7 @@ public:
     }
 
     // The most bits that a shape of this size can have beyond Length's: see Blocks.
-    int fine_for([[maybe_unused]] double size, [[maybe_unused]] Blocks::Of Blocks::*of) const
-    {
-        int fine = 0;
-        if constexpr (N::is_fixed) {
-            const double with_slack = ldexp(size * frame.scale, N::Length::frac) + N::blocks.slack;
-            const Blocks::Of& block = N::blocks.*of;
-            fine = block.least;
-            while (fine < block.most && ldexp(with_slack, fine + 1) <= block.size)
-                fine++;
-        }
-        return fine;
-    }
+    int fine_for(double size, Blocks::Of Blocks::*of) const { return block_scale<N>(length(size), of); }
 
     void leave_out(const Object& o)
     {

@@ -53,22 +53,7 @@ struct Convert {
     }
     static Rgb<N> rgb(const Vec3d& c) { return {colour(c.x), colour(c.y), colour(c.z)}; }
 
-    // 1/r for r > 0.
-    static typename N::Scale inverse(typename N::Length r)
-    {
-        if constexpr (NarrowFixed<N>) {
-            // r << shift has ratio_bits, or r itself some more
-            const int zeros = count_leading_zeros(static_cast<uint32_t>(r.raw)), most = 32 - N::ratio_bits,
-                      shift = zeros > most ? zeros - most : 0;
-            return {static_cast<int32_t>(lrint(ldexp(1, 14 + N::ratio_bits - shift) / r.raw)), shift};
-        } else if constexpr (N::is_fixed) {
-            const int shift = count_leading_zeros(static_cast<uint32_t>(r.raw)) - 1; // r << shift in [2^30, 2^31)
-            const double mantissa = ldexp(1, 61 - shift) / r.raw;
-            return {mantissa >= 2147483647.0 ? INT32_MAX : static_cast<int32_t>(llrint(mantissa)), shift};
-        } else {
-            return 1 / r;
-        }
-    }
+    static typename N::Scale inverse(typename N::Length r) { return inverse_of<N>(r); }
     // What is more than 0 stays so: 0^0 is 1, and 0 to any other power is 0.
     static typename N::Shine shine(double e)
     {

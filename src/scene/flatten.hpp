@@ -1,6 +1,8 @@
 // Builds the tree of a compiled scene: the binary one of split.hpp in preorder, the child nearer to the eye first.
 #pragma once
 
+#include <qray/scene/refit.hpp>
+
 #include "storage.hpp"
 #include "tree_builder.hpp"
 
@@ -97,17 +99,14 @@ private:
 
     void entry(const Quad& low, const Quad& high, uint32_t link)
     {
-        const auto side = [](float l, float h, int16_t& middle, uint16_t& half) {
-            constexpr float steps = 1 << ProjectedRay::step_frac, slack = TreeEntry<N>::slack;
-            const int from = static_cast<int>(fmaxf(floorf(l * steps - slack), INT16_MIN));
-            const int to = static_cast<int>(fminf(ceilf(h * steps + slack), INT16_MAX));
-            middle = static_cast<int16_t>((from + to) >> 1);
-            half = static_cast<uint16_t>(to - middle);
-        };
+        constexpr float steps = 1 << ProjectedRay::step_frac, slack = TreeEntry<N>::slack;
+        detail::StepBox<N> box;
+        for (int i = 0; i < 3; i++) {
+            box.low[i] = static_cast<int32_t>(floorf(low[i] * steps - slack));
+            box.high[i] = static_cast<int32_t>(ceilf(high[i] * steps + slack));
+        }
         TreeEntry<N>& e = s.entries.push();
-        side(low[0], high[0], e.x, e.half_x);
-        side(low[1], high[1], e.y, e.half_y);
-        side(low[2], high[2], e.z, e.half_z);
+        box.put(e);
         e.link = link;
     }
 

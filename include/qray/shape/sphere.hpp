@@ -132,6 +132,24 @@ QRAY_INLINE constexpr void surface_of(const Sphere<N>& s, const Corners<N>&, con
     point = s.centre + coarse<N>(from_rounded(along<N>(s.radius, n), s.rounded), s.fine);
 }
 
+// 1/r for r > 0.
+template <class N>
+constexpr typename N::Scale inverse_of(typename N::Length r)
+{
+    if constexpr (WideFixed<N>) {
+        const uint32_t u = static_cast<uint32_t>(r.raw);
+        const int shift = count_leading_zeros(u) - 1; // u << shift in [2^30, 2^31)
+        return {divide(1 << 29, u << shift, 32), shift};
+    } else if constexpr (N::is_fixed) {
+        const uint32_t u = static_cast<uint32_t>(r.raw);
+        const int most = 32 - N::ratio_bits, zeros = count_leading_zeros(u);
+        const int shift = zeros > most ? zeros - most : 0; // u << shift has ratio_bits, or u itself some more
+        return {divide(1, u << shift, 14 + N::ratio_bits), shift};
+    } else {
+        return 1 / r;
+    }
+}
+
 // With this radius, or false where that is too small for a ray to leave, or too large.
 template <class N, class Radius>
 constexpr bool set_radius(Sphere<N>& s, Radius radius_times) // radius_times(fine): times 2^fine
@@ -143,21 +161,12 @@ constexpr bool set_radius(Sphere<N>& s, Radius radius_times) // radius_times(fin
             return false;
         s.fine = block_scale<N>(size, &Blocks::ball);
         s.radius = radius_times(s.fine);
-        const uint32_t r = static_cast<uint32_t>(s.radius.raw);
-        const int zeros = count_leading_zeros(r);
-        if constexpr (NarrowFixed<N>) {
-            constexpr int bits = N::ratio_bits;
-            const int shift = zeros > 32 - bits ? zeros - (32 - bits) : 0;
-            s.inverse_radius = {divide(1, r << shift, 14 + bits), shift};
-        } else {
-            s.inverse_radius = {divide(1 << 29, r << (zeros - 1), 32), zeros - 1};
-        }
     } else {
         if (!(size >= Length(1) / Length(int64_t{1} << 40)))
             return false;
         s.radius = size;
-        s.inverse_radius = 1 / size;
     }
+    s.inverse_radius = inverse_of<N>(s.radius);
     return true;
 }
 
