@@ -10,18 +10,19 @@
 
 namespace qray {
 
-template <int Bits>
-struct Register {
-    using type = int64_t;
+// The one type, or the other.
+template <bool First>
+struct Chosen {
+    template <class A, class B>
+    using Type = A;
 };
 template <>
-struct Register<16> {
-    using type = int32_t;
+struct Chosen<false> {
+    template <class A, class B>
+    using Type = B;
 };
-template <>
-struct Register<24> {
-    using type = int32_t;
-};
+template <bool First, class A, class B>
+using Either = typename Chosen<First>::template Type<A, B>;
 
 template <int Frac, int Bits = 32>
 struct Fixed {
@@ -33,7 +34,6 @@ struct Fixed {
     constexpr Fixed operator-() const { return {-raw}; }
     constexpr Fixed& operator+=(Fixed b) { raw += b.raw; return *this; }
     friend constexpr bool operator==(Fixed a, Fixed b) { return a.raw == b.raw; }
-    friend constexpr bool operator!=(Fixed a, Fixed b) { return a.raw != b.raw; }
     friend constexpr bool operator<(Fixed a, Fixed b) { return a.raw < b.raw; }
     friend constexpr bool operator>(Fixed a, Fixed b) { return a.raw > b.raw; }
     friend constexpr bool operator<=(Fixed a, Fixed b) { return a.raw <= b.raw; }
@@ -43,7 +43,7 @@ struct Fixed {
 template <int Frac, int Bits = 32>
 struct Wide {
     static constexpr int frac = Frac;
-    using Rep = typename Register<Bits>::type;
+    using Rep = Either<Bits == 32, int64_t, int32_t>;
     Rep raw; // value * 2^Frac
 
     friend constexpr Wide operator+(Wide a, Wide b) { return {a.raw + b.raw}; }

@@ -122,6 +122,13 @@ QRAY_INLINE constexpr uint32_t rsqrt_mantissa(uint64_t v)
     return rsqrt_refined(y, upper + ((lower >> 13) * y >> 6));
 }
 
+// Of a root at most one off the one to the nearest, given the lower half of its square.
+QRAY_INLINE constexpr uint32_t nearest_root(uint32_t root, uint32_t x)
+{
+    const int32_t rest = static_cast<int32_t>(x - root * root), r = static_cast<int32_t>(root);
+    return rest > r ? root + 1 : rest <= -r ? root - 1 : root;
+}
+
 // isqrt for x < 2^58.
 QRAY_SHARED constexpr uint32_t isqrt_small(uint64_t x)
 {
@@ -130,12 +137,7 @@ QRAY_SHARED constexpr uint32_t isqrt_small(uint64_t x)
     // This is sqrt(x) 2^(half - 1), half >= 3, error within (-2.4, 0.9): at most one off when rounded,
     // and |x - root^2| < 2^31 then tells which way.
     root = ((root >> (v.half - 2)) + 1) >> 1;
-    int32_t rest = static_cast<int32_t>(static_cast<uint32_t>(x) - root * root);
-    if (rest > static_cast<int32_t>(root))
-        root++;
-    else if (rest <= -static_cast<int32_t>(root))
-        root--;
-    return root;
+    return nearest_root(root, static_cast<uint32_t>(x));
 }
 
 // isqrt for x >= 2^58, counted up from a bound at most 9 below.
@@ -191,13 +193,7 @@ constexpr uint32_t isqrt(uint32_t x)
     if (x == 0)
         return 0;
     const int pairs = leading_zero_pairs(x);
-    uint32_t root = ((detail::root_of_top(x << (2 * pairs)) >> (7 + pairs)) + 1) >> 1;
-    const int32_t rest = static_cast<int32_t>(x - root * root);
-    if (rest > static_cast<int32_t>(root))
-        root++;
-    else if (rest <= -static_cast<int32_t>(root))
-        root--;
-    return root;
+    return detail::nearest_root(((detail::root_of_top(x << (2 * pairs)) >> (7 + pairs)) + 1) >> 1, x);
 }
 
 namespace detail {

@@ -17,18 +17,8 @@
 namespace qray {
 
 // The type of a quantity that is no number system's own: one in fixed point, another in floating point.
-template <bool IsFixed>
-struct Chosen {
-    template <class InFixed, class InFloating>
-    using Type = InFixed;
-};
-template <>
-struct Chosen<false> {
-    template <class InFixed, class InFloating>
-    using Type = InFloating;
-};
 template <class N, class InFixed, class InFloating>
-using ByNumber = typename Chosen<N::is_fixed>::template Type<InFixed, InFloating>;
+using ByNumber = Either<N::is_fixed, InFixed, InFloating>;
 
 // 1/r as fixed point keeps it: v / r = (v << shift) * mantissa, shifted down by what the number system says.
 struct FixedScale {

@@ -95,27 +95,6 @@ QRAY_INLINE constexpr int32_t signed_mul_high(int32_t a, int32_t b)
     return static_cast<int32_t>((int64_t{a} * b) >> 32);
 }
 
-// The upper 32 bits of ax bx + ay by + az bz, which fits int64_t, up to 3 too low. Only where has_wide_multiply.
-QRAY_INLINE constexpr int32_t high_dot(int32_t ax, int32_t ay, int32_t az, int32_t bx, int32_t by, int32_t bz)
-{
-#if defined(__thumb2__)
-    if (!__builtin_is_constant_evaluated()) {
-        int32_t low, high;
-        __asm__("smull %[low], %[high], %[ax], %[bx]\n\t"
-                "smlal %[low], %[high], %[ay], %[by]\n\t"
-                "smlal %[low], %[high], %[az], %[bz]\n\t"
-                : [low] "=&r"(low), [high] "=&r"(high)
-                : [ax] "r"(ax), [ay] "r"(ay), [az] "r"(az), [bx] "r"(bx), [by] "r"(by), [bz] "r"(bz));
-        return high;
-    }
-#endif
-#if defined(__riscv)
-    return signed_mul_high(ax, bx) + signed_mul_high(ay, by) + signed_mul_high(az, bz);
-#else
-    return static_cast<int32_t>((int64_t{ax} * bx + int64_t{ay} * by + int64_t{az} * bz) >> 32);
-#endif
-}
-
 namespace detail {
 
 struct Magnitude128 {
@@ -258,6 +237,16 @@ constexpr int64_t wide_dot(int32_t ax, int32_t ay, int32_t az, int32_t bx, int32
     return static_cast<int64_t>(static_cast<uint64_t>(wide_mul(ax, bx))
                                 + static_cast<uint64_t>(wide_mul(ay, by))
                                 + static_cast<uint64_t>(wide_mul(az, bz)));
+}
+
+// The upper 32 bits of ax bx + ay by + az bz, which fits int64_t, up to 3 too low. Only where has_wide_multiply.
+QRAY_INLINE constexpr int32_t high_dot(int32_t ax, int32_t ay, int32_t az, int32_t bx, int32_t by, int32_t bz)
+{
+#if defined(__riscv)
+    return signed_mul_high(ax, bx) + signed_mul_high(ay, by) + signed_mul_high(az, bz);
+#else
+    return static_cast<int32_t>(wide_dot(ax, ay, az, bx, by, bz) >> 32);
+#endif
 }
 
 // x^2 + y^2 + z^2, exact: at most 3 * 2^62, so it always fits.

@@ -10,12 +10,7 @@ namespace qray {
 // larger at least 2^31.
 template <class N>
 struct Field {
-    typename N::Unit sine, cosine;
-};
-template <class N>
-    requires(N::is_fixed)
-struct Field<N> {
-    uint32_t sine, cosine;
+    ByNumber<N, uint32_t, typename N::Unit> sine, cosine;
 };
 
 // The whole field as an angle of which 2^32 are a turn, above 0 and below half a turn.

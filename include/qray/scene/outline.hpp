@@ -18,21 +18,12 @@ namespace qray {
 template <class N>
 inline constexpr bool has_outlines = WideFixed<N> || SingleFloat<N>;
 
-template <bool IsFixed>
-struct OutlineRow {
-    using Type = Bounds;
-};
-template <>
-struct OutlineRow<true> {
-    using Type = BoundMask;
-};
-
 // x, y, z of corners. In each four of them an edge leads from one to the next and from the last to the first; of an
 // outline of more, whose fours share the corner between them, that last edge does not count. Behind the blocks of an
 // outline that has several: the lowest of each of these blocks, and the highest.
 template <class N>
 struct alignas(sizeof(Bounds)) OutlineBlock {
-    using Row = typename OutlineRow<N::is_fixed>::Type;
+    using Row = ByNumber<N, BoundMask, Bounds>;
     Row corners[3];
 };
 

@@ -32,15 +32,6 @@ struct MovingTable {
     constexpr const T& operator[](uint32_t i) const { return data[i]; }
 };
 
-template <class N, bool Moving>
-struct CameraOf {
-    using type = Camera<N>;
-};
-template <class N>
-struct CameraOf<N, true> {
-    using type = const Camera<N>&;
-};
-
 // A single value that only some scenes need.
 template <class T, bool Present>
 struct Maybe {
@@ -59,7 +50,7 @@ using TextureOf = TextureRef;
 
 template <class N, Effects E>
 struct Scene {
-    typename CameraOf<N, E.moving>::type camera;
+    Either<E.moving, const Camera<N>&, Camera<N>> camera;
     [[no_unique_address]] Maybe<EyeSurface<N>, E.eye_surface> eye_surface{};
     Rgb<N> background;
     int32_t exposure; // colours are stored divided by 2^exposure

@@ -9,12 +9,7 @@ namespace qray {
 // In fixed point, what the normal has beyond that of normal_across(), in ulp.
 template <class N>
 struct LeanNormal {
-    int8_t x, y, z;
-};
-template <class N>
-    requires(!N::is_fixed)
-struct LeanNormal<N> {
-    typename N::Unit x, y, z;
+    ByNumber<N, int8_t, typename N::Unit> x, y, z;
 };
 
 struct MeshCorners {

@@ -12,17 +12,10 @@
 
 namespace qray {
 
-// A point in the plane across the ray.
+// A point in the plane across the ray. Where products have 32 bits it is exact: not rounded to a Length.
 template <class N>
 struct Sheared {
-    typename N::Length x, y;
-};
-
-// Where products have 32 bits, the sheared corner is exact: not rounded to a Length.
-template <class N>
-    requires NarrowFixed<N>
-struct Sheared<N> {
-    typename N::Moment x, y;
+    Either<NarrowFixed<N>, typename N::Moment, typename N::Length> x, y;
 };
 
 template <class N>
