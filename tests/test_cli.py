@@ -3,6 +3,7 @@ From the top of the repository, after `make test-programs`: python3 tests/test_c
 
 import glob
 import os
+import pathlib
 import platform
 import pty
 import re
@@ -26,6 +27,9 @@ SANITIZED = os.path.abspath("build/sanitized/qray")
 AVX2 = platform.machine() == "x86_64" and {"avx2", "fma", "bmi1", "bmi2"} <= set(open("/proc/cpuinfo").read().split())
 VARIANTS = sorted(glob.glob(os.path.abspath("build/variants/*/qray")))
 SCENES = sorted(glob.glob(os.path.abspath("scenes/*.nff")))
+# Where light is solved for, which takes long, a small room has the same code in all variants.
+QUICK_SCENES = [s for s in SCENES if "\nradiosity " not in pathlib.Path(s).read_text()]
+QUICK_SCENES.append(os.path.abspath("tests/room.nff"))
 NUMBERS = ("q16", "q24", "q32", "float", "double")
 
 # The eye looks along -z at the plane z = 0 from a distance of 1; with an angle of 90 degrees the picture spans -1 to 1.
@@ -608,30 +612,7 @@ class Threads(Cli):
             os.read(master, 1000)
 
 
-ROOM = """v from 0 1 4  at 0 1 0  up 0 1 0  angle 60  hither 1  resolution 40 30
-radiosity 2
-material colour 0.9 0.3 0.2
-p 4  -1 0 1  1 0 1  1 0 -1  -1 0 -1
-p 4  -1 0 -1  1 0 -1  1 2 -1  -1 2 -1
-disc 0.8 1 0  -1 0 0.2  0.4
-material diffuse 0 emission 4
-p 4  -1 2 -1  1 2 -1  1 2 1  -1 2 1
-material colour 0.1 0.1 0.1 mirror 0.7
-s -0.4 0.5 0.2  0.3
-"""
-
-
 class Builds(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        """The scenes; for those where light is solved for, the same code in all variants, a room that takes less."""
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        room = os.path.join(folder.name, "room.nff")
-        with open(room, "w") as file:
-            file.write(ROOM)
-        cls.scenes = [scene for scene in SCENES if "\nradiosity " not in open(scene).read()] + [room]
-
     def picture(self, program, *arguments):
         done = subprocess.run([program, *arguments, "-q", "-o", "-"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               timeout=120)
@@ -645,7 +626,7 @@ class Builds(unittest.TestCase):
     # Fixed point by other compilers, at other levels, and with sanitizers that stop at the first fault.
     def test_same_bytes(self):
         self.assertGreaterEqual(len(SCENES), 10)
-        for scene in self.scenes:
+        for scene in QUICK_SCENES:
             for arguments in (["-s", "80x60"], ["-s", "24x18", "-r", "4", "-d", "9"], ["-s", "24x18", "-a", "2"],
                               ["-s", "40x30", "-n", "q16"], ["-s", "40x30", "-n", "q24"]):
                 expected = self.picture(QRAY, scene, *arguments)
@@ -656,7 +637,7 @@ class Builds(unittest.TestCase):
     # Floating point with vectors by parts, as the sanitized program has them, and in lanes, where this processor has
     # those.
     def test_sanitizers_report_nothing(self):
-        for scene in self.scenes:
+        for scene in QUICK_SCENES:
             for number in ("float", "double"):
                 with self.subTest(scene=scene, number=number):
                     arguments = ["-n", number, "-s", "40x30"]

@@ -4,6 +4,7 @@ draws, and compiles without a warning. From the top of the repository: python3 t
 import concurrent.futures
 import glob
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -101,8 +102,9 @@ class Compile(unittest.TestCase):
                    for number in NUMBERS for compiler in ("g++", "clang++")])
 
     def test_each_scene(self):
-        scenes = sorted(glob.glob("scenes/*.nff"))
+        scenes = [s for s in sorted(glob.glob("scenes/*.nff")) if "\nradiosity " not in pathlib.Path(s).read_text()]
         self.assertGreater(len(scenes), 10)
+        scenes.append("tests/room.nff")  # where light is solved for, which takes long in others
         options = [("-r", "4"), ("-a", "3,0.1"), ("-d", "9", "--cutoff", "0.3")]
         self.same([(scene, NUMBERS[k % len(NUMBERS)], "g++", ("-s", "32x24", *options[k % 3]))
                    for k, scene in enumerate(scenes)])

@@ -63,8 +63,8 @@ def desktop(scene, number):
 def faults(board, scene, number, expected):
     """What is wrong with a board's picture and its firmware."""
     elf = f"build/{board}/{scene}-{number}.elf"
-    status, text = make("-o", "build/qray", "run", f"BOARD={board}", f"SCENE=scenes/{scene}.nff",
-                        f"NUMBER={number}", f"SIZE={size(scene)}", OPTIONS.get(scene, "--silent"))
+    status, text = make("-o", "build/qray", "run", f"BOARD={board}", f"SCENE=scenes/{scene}.nff", f"NUMBER={number}",
+                        f"SIZE={size(scene)}", OPTIONS.get(scene, "--silent"), "FW_COUNT=echo 0")  # rays: of no use
     if status != 0:
         return [text]
     with open(elf.removesuffix("elf") + "ppm", "rb") as file:

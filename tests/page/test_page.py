@@ -29,15 +29,8 @@ SIZE = "80x60"
 NUMBERS = json.loads(subprocess.run(["build/qray", "--describe"], stdout=subprocess.PIPE, check=True).stdout)["numbers"]
 
 # Light between surfaces; quick, as there is little to compute.
-ROOM = """v from 0 1 4  at 0 1 0  up 0 1 0
-angle 45  hither 1  resolution 80 60
-radiosity 2
-l 0.5 1.8 1  0.7 0.7 0.7
-material colour 0.9 0.3 0.2 diffuse 0.9
-p 4  -1 0 1  1 0 1  1 0 -1  -1 0 -1
-material colour 0.8 0.8 0.8 diffuse 0.8
-p 4  -1 0 -1  1 0 -1  1 2 -1  -1 2 -1
-"""
+with open("tests/room.nff", encoding="utf-8") as file:
+    ROOM = file.read()
 
 
 def picture(text, *options):
