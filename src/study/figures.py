@@ -1,7 +1,9 @@
 """The study's plots."""
 
+import io
 import math
 import os
+import re
 
 import matplotlib
 import matplotlib.pyplot as plt
@@ -15,6 +17,7 @@ FIGURES = "src/study/figures"  # of the pages
 matplotlib.use("svg")
 # The same bytes at each run, and text that stays text.
 plt.rcParams.update({"svg.hashsalt": "qray", "svg.fonttype": "none", "font.size": 9, "axes.grid": True,
+                     "font.sans-serif": ["DejaVu Sans", "Verdana"],
                      "axes.axisbelow": True, "grid.color": "#dde", "legend.frameon": False,
                      "figure.constrained_layout.use": True})
 COLOURS = {"q16": "#c0392b", "q24": "#d68910", "q32": "#1f5fa8", "float": "#1a8f4c", "double": "#8e44ad"}
@@ -47,8 +50,11 @@ def save(figure, path, title, note=""):
     figure.suptitle(title, fontweight="bold")
     if note:
         figure.supxlabel(note, fontsize=8, color="#667")
-    figure.savefig(path, metadata={"Date": None, "Title": title})
+    drawn = io.StringIO()
+    figure.savefig(drawn, metadata={"Date": None, "Title": title})
     plt.close(figure)
+    with open(path, "w") as file:  # an element in a line, and none that is empty
+        file.write(re.sub(r'\n(?=[^ <])|\n *<g id="[^"]*"/>', "", drawn.getvalue()))
 
 
 def log_axis(axis):
