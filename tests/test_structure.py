@@ -97,6 +97,8 @@ def test_includes():
           [f"{n}.hpp includes {i}" for n in names() for i in includes(n)[0] if i not in ("<stdint.h>", "<stddef.h>")])
     check("own headers that are included exist",
           [f"{n}.hpp includes {i}" for n in names() for i in includes(n)[1] if i not in names()])
+    check("number/ and vector/ alone ask whether vectors lie in registers",
+          [f"{n}.hpp" for n in names() if FLOOR.get(os.path.dirname(n), 99) > 1 and "in_lanes" in code(n)])
     check("every folder has its floor", [f"{n}.hpp is in no floor of this test's table" for n in names()
                                          if n != TOP and os.path.dirname(n) not in FLOOR])
     check("no header includes one of a higher floor",
