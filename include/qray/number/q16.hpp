@@ -220,23 +220,22 @@ struct q16 : FixedNumbers<10, 14, 13, 13, 16> {
         // To 31 bits first.
         const uint64_t all = magnitude(a.raw) | magnitude(b.raw) | magnitude(c.raw);
         const int down = count_leading_zeros(all) > 33 ? 0 : 33 - count_leading_zeros(all);
-        int32_t x = static_cast<int32_t>(a.raw >> down), y = static_cast<int32_t>(b.raw >> down),
-                z = static_cast<int32_t>(c.raw >> down);
-        const int32_t largest = magnitude(x) > magnitude(y) ? x : y;
-        if ((magnitude(z) > magnitude(largest) ? z : largest) < 0) {
-            x = -x;
-            y = -y;
-            z = -z;
-        }
-        x = x < 0 ? 0 : x;
-        y = y < 0 ? 0 : y;
-        z = z < 0 ? 0 : z;
-        const int up = count_leading_zeros(static_cast<uint32_t>(x | y | z));
+        const auto word = [down](int64_t v) { return static_cast<int32_t>(v >> down); };
+        const int32_t first = word(a.raw), second = word(b.raw), third = word(c.raw);
+        const int32_t larger = magnitude(first) > magnitude(second) ? first : second;
+        const bool flip = (magnitude(third) > magnitude(larger) ? third : larger) < 0;
+        const auto size = [flip](int32_t v) {
+            v = flip ? -v : v;
+            return v < 0 ? 0 : static_cast<uint32_t>(v);
+        };
+        const uint32_t x = size(first), y = size(second), z = size(third);
+        const int up = count_leading_zeros(x | y | z);
         if (up == 32)
             return false;
-        wa = {static_cast<int32_t>(static_cast<uint32_t>(x) << up >> (32 - Unit::frac))};
-        wb = {static_cast<int32_t>(static_cast<uint32_t>(y) << up >> (32 - Unit::frac))};
-        wc = {static_cast<int32_t>(static_cast<uint32_t>(z) << up >> (32 - Unit::frac))};
+        const auto weight = [up](uint32_t v) { return Unit{static_cast<int32_t>(v << up >> (32 - Unit::frac))}; };
+        wa = weight(x);
+        wb = weight(y);
+        wc = weight(z);
         return true;
     }
 

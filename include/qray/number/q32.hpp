@@ -177,25 +177,20 @@ struct q32 : FixedNumbers<24, 30, 28, 27, 32> {
     // near 1. False where all are 0.
     static constexpr bool weights(Area a, Area b, Area c, Unit& wa, Unit& wb, Unit& wc)
     {
-        const bool flip = magnitude(int64_t{a.raw}) > magnitude(int64_t{b.raw})
-                && magnitude(int64_t{a.raw}) > magnitude(int64_t{c.raw})
-            ? a.raw < 0
-            : (magnitude(int64_t{b.raw}) > magnitude(int64_t{c.raw}) ? b.raw : c.raw) < 0;
-        const int64_t x = flip ? -int64_t{a.raw} : int64_t{a.raw};
-        const int64_t y = flip ? -int64_t{b.raw} : int64_t{b.raw};
-        const int64_t z = flip ? -int64_t{c.raw} : int64_t{c.raw};
-        const uint64_t ux = x < 0 ? 0 : static_cast<uint64_t>(x);
-        const uint64_t uy = y < 0 ? 0 : static_cast<uint64_t>(y);
-        const uint64_t uz = z < 0 ? 0 : static_cast<uint64_t>(z);
-        const int lz = count_leading_zeros(ux | uy | uz);
-        if (lz == 64)
-            return false;
-        const auto weight = [lz](uint64_t u) {
-            return Unit{static_cast<int32_t>(u << lz >> (64 - Unit::frac))};
+        const int64_t other = magnitude(b.raw) > magnitude(c.raw) ? b.raw : c.raw;
+        const bool flip = (magnitude(a.raw) > magnitude(other) ? a.raw : other) < 0;
+        const auto size = [flip](int64_t v) {
+            v = flip ? -v : v;
+            return v < 0 ? 0 : static_cast<uint64_t>(v);
         };
-        wa = weight(ux);
-        wb = weight(uy);
-        wc = weight(uz);
+        const uint64_t x = size(a.raw), y = size(b.raw), z = size(c.raw);
+        const int zeros = count_leading_zeros(x | y | z);
+        if (zeros == 64)
+            return false;
+        const auto weight = [zeros](uint64_t v) { return Unit{static_cast<int32_t>(v << zeros >> (64 - Unit::frac))}; };
+        wa = weight(x);
+        wb = weight(y);
+        wc = weight(z);
         return true;
     }
 

@@ -62,14 +62,9 @@ struct Local {
 
 // A point's rounded coordinates less the exact ones, times 2^fine.
 template <class N>
-struct Rounded {
-    int16_t x, y, z;
-};
-template <class N>
-    requires(!WideFixed<N>)
-struct Rounded<N> {};
-template <FixedLanes N>
-struct alignas(8) Rounded<N> { // to be read at once
+struct Rounded {};
+template <WideFixed N>
+struct alignas(in_lanes<N> ? 8 : alignof(int16_t)) Rounded<N> { // in lanes to be read at once
     int16_t x, y, z;
 };
 
