@@ -82,8 +82,8 @@ QRAY_INLINE constexpr bool is_outside(int32_t v, int32_t r)
 }
 QRAY_INLINE constexpr uint32_t square(int32_t v) { return static_cast<uint32_t>(v) * static_cast<uint32_t>(v); }
 
-// t = 2^k num / den. False where den is 0, t exceeds `most`, or num is 0 and den next to nothing: where t has 32 - Least
-// bits. product(n, d), of numbers from 2^31 to 2^32, is 2^31 n / d.
+// t = 2^k num / den. False where den is 0, t exceeds `most`, as all do that are shifted down by less than Least, or num
+// is 0 and den next to nothing. product(n, d), of numbers from 2^31 to 2^32, is 2^31 n / d.
 template <int Least, class Product>
 QRAY_INLINE constexpr bool quotient_by(Product product, int32_t num, int32_t den, int k, int32_t most, int32_t& t)
 {
