@@ -82,14 +82,8 @@ TEST(Math, RootOf32BitsIsNearest) {
     EXPECT_EQ(isqrt(uint32_t{0}), 0u);
 }
 
-// mantissa * 2^exponent.
-struct Scaled {
-    uint32_t mantissa;
-    int32_t exponent;
-};
-
 // 1 / sqrt(x), of which the tracer's roots are made; x = 0 is taken for 1.
-struct InverseRoot {
+struct InverseRoot { // mantissa * 2^exponent
     uint32_t mantissa;
     int exponent;
 };
