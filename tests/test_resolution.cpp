@@ -88,6 +88,24 @@ TYPED_TEST(ResolutionTest, WhatSpansFewSteps)
     EXPECT_EQ(named<N>(wide + "s " + number(far) + " 0 0 " + number(far / 4) + "\n"), 0u);
 }
 
+// A plane has no middle, but a pattern where the eye looks. What is 5 below and 20 before the eye is as tall in the
+// picture as the angle says; steps are a third of a world of 165 units.
+TYPED_TEST(ResolutionTest, APatternOnAPlaneSpansFewSteps)
+{
+    using N = TypeParam;
+    const std::string checker = "texture checker 0 0 0 0.1\n", floor = "plane 0 0 0 0 1 0\n";
+    const auto from = [](double angle) {
+        return "v from 0 5 0 at 0 0 -20 up 0 1 0 angle " + number(angle) + " hither 0 resolution 160 120\n";
+    };
+    const double narrow = ShortFixed<N> ? 1 : NarrowFixed<N> ? 0.5 : N::is_fixed ? 1e-3
+        : sizeof(typename N::Length) == 4 ? 1e-3 : 1e-6; // 14, 31 and 52 dB in fixed point
+    EXPECT_EQ(named<N>(from(narrow) + checker + floor), 3u);
+    EXPECT_EQ(named<N>(from(narrow) + floor), 0u); // one colour
+    EXPECT_EQ(named<N>(from(narrow * 20) + checker + floor), 0u);
+    EXPECT_EQ(named<N>(from(narrow) + checker + "plane 0 0 1 0 0 1\n"), 0u); // behind the eye
+    EXPECT_EQ(named<N>(from(narrow) + "far 3 " + checker + floor), 0u);       // ends before
+}
+
 // Between two floors there is no room to stand off both.
 TYPED_TEST(ResolutionTest, EyeThatFallsOntoASurface)
 {
