@@ -1,5 +1,6 @@
 // What a number system cannot tell apart in a scene: where the eye may stand, which objects span too few steps, and
-// which surfaces fall together.
+// which surfaces fall together. The bounds were measured against tests/oracle, so that what is below them is not drawn
+// right (28 dB in q16, 40 dB in q24, 60 dB in q32, 45 dB in float), and what is above them is.
 #pragma once
 
 #include <algorithm>
@@ -176,8 +177,8 @@ public:
         Vec3d middle;
         double r = HUGE_VAL, away = 0;
         if (endless) {
-            const double height = dot(normal(o), d.view.from - o.a);
-            const double along = -dot(normal(o), forward) * (height < 0 ? -1 : 1);
+            const Above from = lies_on(d, o, 0, d.view.from, HUGE_VAL);
+            const double height = from.height, along = -dot(from.outward, forward) * (height < 0 ? -1 : 1);
             const double turned = acos(fmax(-1, fmin(1, along))) - half_diagonal();
             away = fabs(height) / cos(fmax(0, turned));
             middle = d.view.from + forward * away;
