@@ -172,11 +172,13 @@ class Compile(unittest.TestCase):
                 self.assertEqual((drawn.returncode, drawn.stdout), (0, expected))
 
     def test_names(self):
-        for name in ("", "2nd", "a b", "a-b", "a::b", "\u00e9", "x" * 65):
+        for name in ("", "2nd", "a b", "a-b", "a::b", "\u00e9", "x" * 65, "class", "int", "co_await", "xor", "new"):
             made = qray("compile", "scenes/balls.nff", "--name", name, "-o", "-")
             self.assertEqual((made.returncode, made.stdout), (2, b""), name)
             self.assertIn(b"expected", made.stderr)
             self.assertEqual(made.stderr.count(b"\n"), 1)
+        for name in ("classes", "in", "_a"): # keywords but for a letter
+            self.assertEqual(qray("compile", "scenes/balls.nff", "--name", name, "-o", "-").returncode, 0, name)
 
     def test_the_header_holds_what_the_scene_calls_for(self):
         text = self.header("shadows off\n" + VIEW + "l 1 2 3\ns 0 0 0 1\ns 1 0 0 1\n", "-s", "64x48")

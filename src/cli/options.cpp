@@ -85,12 +85,27 @@ bool take_adaptive(Options& o, const char* value)
         && (comma == nullptr || share(comma + 1, o.settings.threshold));
 }
 
+// Of C++20, each between blanks.
+constexpr std::string_view keywords =
+    " alignas alignof and and_eq asm auto bitand bitor bool break case catch char char8_t char16_t "
+    "char32_t class compl concept const consteval constexpr constinit const_cast continue co_await "
+    "co_return co_yield decltype default delete do double dynamic_cast else enum explicit export extern "
+    "false float for friend goto if inline int long mutable namespace new noexcept not not_eq nullptr "
+    "operator or or_eq private protected public register reinterpret_cast requires return short signed "
+    "sizeof static static_assert static_cast struct switch template this thread_local throw true try "
+    "typedef typeid typename union unsigned using virtual void volatile wchar_t while xor xor_eq ";
+
 bool take_name(Options& o, const char* value)
 {
     constexpr const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789";
     const size_t length = strlen(value);
     o.name = value;
-    return length != 0 && length <= 64 && strspn(value, letters) == length && (*value < '0' || *value > '9');
+    if (length == 0 || length > 64 || strspn(value, letters) != length || (*value >= '0' && *value <= '9'))
+        return false;
+    for (size_t at = 0; (at = keywords.find(value, at)) != keywords.npos; at++)
+        if (keywords[at - 1] == ' ' && keywords[at + length] == ' ')
+            return false;
+    return true;
 }
 
 // Six numbers, of two corners of a box.
@@ -126,7 +141,7 @@ constexpr Option table[] = {
     {"-o", "FILE", compile, "the header; '-' is standard output (default: SCENE.hpp in this folder)", "a name",
      [](Options& o, const char* v) { return *(o.output = v) != 0; }},
     {"--name", "NAME", compile, "the header's namespace (default: scene)",
-     "a C++ name of at most 64 letters, digits and _", take_name},
+     "a C++ name of at most 64 letters, digits and _, and no keyword", take_name},
     {"-s", "WxH", all, "size in pixels (default: the scene's own)", "WIDTHxHEIGHT, each from 1 to 32768", take_size},
     {"-n", "NUMBER", draw | compile, "number system: " QRAY_NUMBERS_SAID " (default: q32)", QRAY_NUMBERS_SAID,
      take_number},
