@@ -156,6 +156,24 @@ TYPED_TEST(MovingTest, CamerasAreTheDesktops)
     EXPECT_LE(worst_angle, 2);
 }
 
+// Down to the smallest angles that there are: in few bits a step rounds to 0, and nothing is undefined.
+TYPED_TEST(MovingTest, ACameraOfNextToNoAngle)
+{
+    using N = TypeParam;
+    ASSERT_TRUE(loaded<N>(scene_text(any_view, "s 0 0 0 1"), moving()));
+    const auto& s = storage<N>();
+    for (const uint32_t angle : {1u, 2u, 3u, 5u, 8u}) {
+        Camera<N> camera = s.camera;
+        const bool looks = look_at(camera, s.frame,
+                                   {place_of<N>(1, 2, 3), place_of<N>(0, 0, 0), place_of<N>(0, 1, 0), field<N>(angle)});
+        EXPECT_TRUE(looks || angle == 1) << angle;
+        if (NarrowFixed<N> && looks) {
+            EXPECT_EQ(camera.right.x, 0) << angle;
+            EXPECT_EQ(camera.down.y, 0) << angle;
+        }
+    }
+}
+
 // All that moves, by so many eighths from where it is at first; the ball's radius is that.
 std::string shapes(int x, int y, int z, int radius)
 {

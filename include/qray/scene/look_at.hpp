@@ -118,6 +118,8 @@ constexpr bool look_at(Camera<N>& camera, const Frame<N>& frame, const View<N>& 
             return static_cast<Part>(by > 0 ? (p + (int64_t{1} << (by - 1))) >> by : p);
         };
         down += 92 - bits + short_of - wide;
+        if (NarrowFixed<N> && down > 63) // of a field so small that a step rounds to 0, as it does by 63
+            down = 63;
         camera.eye = from;
         const int less = 60 - bits + finer;
         camera.centre = {part(w[0], ahead, less), part(w[1], ahead, less), part(w[2], ahead, less)};
