@@ -28,8 +28,8 @@ FLOAT_IS_CLOSER = {
     "seethrough_shadows": "1 of 76800 bytes is one off",
 }
 
-OPTIONS = [["-d", "1"], ["-d", "12", "--cutoff", "0"], ["--cutoff", "0.1"], ["-r", "4"], ["-r", "9"], ["-a", "2"],
-           ["-a", "4,0.02"]]
+DENSE = [["-r", "9"], ["-a", "4,0.02"]]  # many samples a pixel, of a quarter of the pixels
+OPTIONS = [["-d", "1"], ["-d", "12", "--cutoff", "0"], ["--cutoff", "0.1"], ["-r", "4"], ["-a", "2"], *DENSE]
 SAMPLED_SCENES = ["scenes/soft.nff", "scenes/images.nff"]  # with 4 samples, and adaptively
 OPTION_SCENES = ["scenes/showcase.nff", "scenes/glass.nff", "tests/scenes/touching.nff"]
 
@@ -73,7 +73,7 @@ def draw(program, scene, out, options):
 def closeness(folder, scene, options, numbers):
     """{number system: (share, dB)}"""
     stem = os.path.join(folder, re.sub(r"\W+", "_", scene + " ".join(options)))
-    dimensions = ["-s", "%dx%d" % size(scene)]
+    dimensions = ["-s", "%dx%d" % tuple(n // 2 if options in DENSE else n for n in size(scene))]
     draw(ORACLE, scene, stem + ".ppm", dimensions + options)
     found = {}
     for number in numbers:
