@@ -80,7 +80,7 @@ FW_OBJS   := $(addprefix $(FW_OWN)/,$(addsuffix .o,$(FW_COMMON) \
     $(if $(filter uart,$(OUTPUT)),output_uart $(BOARD_UART),host_semihosting $(BOARD_COUNTER))))
 # The desktop draws the same picture, and counts its rays.
 FW_COUNT  := build/qray $(SCENE) $(FW_OPTIONS) -q --stats -o /dev/null 2>&1 | sed -n 's/^rays: //p'
-FW_REPORT  = python3 $(FW_SRC)/common/run.py --tools $(BOARD_TOOLS) --tick $(BOARD_TICK) \
+FW_REPORT  = $(PYTHON) $(FW_SRC)/common/run.py --tools $(BOARD_TOOLS) --tick $(BOARD_TICK) \
     $(if $(UNBOUNDED),--unbounded) $(FW_ELF)
 
 # What the outputs were made with: a change of options remakes them.
@@ -126,7 +126,7 @@ describe:
 	@echo '{"tools": "$(BOARD_TOOLS)", "cpu": "$(BOARD_CPU)", "optimise": "$(BOARD_OPTIMISE)",' \
 	    '"qemu": "$(BOARD_QEMU)", "tick": $(BOARD_TICK)}'
 profile: $(FW_ELF) | firmware-qemu
-	@python3 $(FW_SRC)/common/profile.py --tools $(BOARD_TOOLS) --qemu '$(BOARD_QEMU)' $(FW_ELF)
+	@$(PYTHON) $(FW_SRC)/common/profile.py --tools $(BOARD_TOOLS) --qemu '$(BOARD_QEMU)' $(FW_ELF)
 
 firmware-package = $(if $(filter arm%,$(BOARD_TOOLS)),gcc-arm-none-eabi,gcc-riscv64-unknown-elf)
 firmware-need = @command -v $(1) > /dev/null || \
