@@ -1,22 +1,11 @@
 // The tracer of the page, in WebAssembly: what JavaScript calls. One scene's text, one picture in work for each worker
 // that has an instance. Answers are JSON, in a text that stands until the next call.
-#include "../scene/effect_names.hpp"
+#include "../cli/explain.hpp"
 #include "../scene/radiosity.hpp"
 #include "../scene/reader.hpp"
+#include "../study/flip.hpp"
 #include "../study/scattered.hpp"
 #include "kernel.hpp"
-#if __has_include("../cli/explain.hpp")
-#include "../cli/explain.hpp"
-#define QRAY_EXPLAIN 1
-#else
-#define QRAY_EXPLAIN 0
-#endif
-#if __has_include("../study/flip.hpp")
-#include "../study/flip.hpp"
-#define QRAY_FLIP 1
-#else
-#define QRAY_FLIP 0
-#endif
 
 #include <iterator>
 
@@ -142,11 +131,10 @@ study::Scattered combs() { return {built.width, built.height}; }
 QRAY_EXPORT(describe) const char* describe()
 {
     used = 0;
-    put("{\"explain\": %d, \"numbers\": [", QRAY_EXPLAIN);
+    put("{\"numbers\": [");
     for (const char* number : cli::number_names)
         put("%s\"%s\"", answer[used - 1] == '[' ? "" : ", ", number);
-    put("], \"grid\": %u, \"levels\": %u, \"depth\": %u, \"places\": %u}", scene::Settings::max_grid,
-        scene::Settings::max_levels, scene::Settings::max_depth, scene::Limits::places);
+    put("]}");
     return answer;
 }
 
@@ -178,9 +166,7 @@ QRAY_EXPORT(parse) const char* parse(const char* name, size_t size)
     for (uint32_t i = 0; i < description.light_count; i++)
         panels += description.lights[i].places != 0;
     used = 0;
-    put("{\"width\": %u, \"height\": %u, \"objects\": %u, \"spawns\": %s, \"panels\": %u, \"radiosity\": %s, "
-        "\"title\": ",
-        description.view.width, description.view.height, description.object_count, spawns ? "true" : "false", panels,
+    put("{\"spawns\": %s, \"panels\": %u, \"radiosity\": %s, \"title\": ", spawns ? "true" : "false", panels,
         description.radiosity > 0 ? "true" : "false");
     put_string(description.comment);
     put(", \"warnings\": [");
@@ -234,12 +220,8 @@ QRAY_EXPORT(build) const char* build(const char* number, uint32_t width, uint32_
         return answer_error("not enough memory for the picture");
     rays = {};
     used = 0;
-    put("{\"width\": %u, \"height\": %u, \"combs\": %u, \"length\": %u, \"effects\": [", built.width, built.height,
+    put("{\"width\": %u, \"height\": %u, \"combs\": %u, \"length\": %u, \"warnings\": [", built.width, built.height,
         combs().count(), combs().length());
-    for (const scene::EffectName& e : scene::effect_names)
-        if (built.effects.*e.effect)
-            put("%s\"%s\"", answer[used - 1] == '[' ? "" : ", ", e.name);
-    put("], \"warnings\": [");
     put_warning(built.lost);
     put("]}");
     return answer;
@@ -263,7 +245,6 @@ QRAY_EXPORT(comb) uint8_t* comb(uint32_t k)
     return to;
 }
 
-#if QRAY_EXPLAIN
 constinit cli::Explanation explanations[2]{};
 constinit struct {
     const char* number;
@@ -310,7 +291,6 @@ QRAY_EXPORT(explanation) const char* explanation(uint32_t count)
     all.room.at[all.size] = 0;
     return reinterpret_cast<const char*>(all.room.at);
 }
-#endif
 
 QRAY_EXPORT(ray_count) double ray_count(uint32_t kind) { return static_cast<double>(rays.rays[kind]); }
 
@@ -321,7 +301,7 @@ QRAY_EXPORT(room_for_two) uint8_t* room_for_two(uint32_t pixels)
     return cli::make_room(picture, size_t{7} * pixels) ? picture.at : nullptr;
 }
 
-QRAY_EXPORT(compare) const char* compare([[maybe_unused]] uint32_t width, [[maybe_unused]] uint32_t height)
+QRAY_EXPORT(compare) const char* compare(uint32_t width, uint32_t height)
 {
     const uint32_t pixels = width * height;
     const uint8_t *const a = picture.at, *const b = a + size_t{3} * pixels;
@@ -341,7 +321,6 @@ QRAY_EXPORT(compare) const char* compare([[maybe_unused]] uint32_t width, [[mayb
     }
     used = 0;
     put("{\"squares\": %llu, \"differ\": %u, \"most\": %u", static_cast<unsigned long long>(squares), differ, most);
-#if QRAY_FLIP
     static scene::Room work;
     if (cli::make_room(work, sizeof(double) * (study::Flip::room(width) + width))) {
         static const study::Flip flip;
@@ -358,7 +337,6 @@ QRAY_EXPORT(compare) const char* compare([[maybe_unused]] uint32_t width, [[mayb
         }
         put(", \"flip\": %.4f, \"seen\": %.6f", sum / pixels, static_cast<double>(seen) / pixels);
     }
-#endif
     put("}");
     return answer;
 }

@@ -363,7 +363,7 @@ function show_pixel() {
         ...sides.map(side => lens(`${side.name}: ${of(side, at).join(' ')}`, i => of(side, i))),
         lens('difference', i => colours[compared.map[i]]));
     clearTimeout(asking);
-    if (told.explain && $('why').open)
+    if ($('why').open)
         asking = setTimeout(explain, 100);
 }
 // The rays of the pixel, of picture A and of B beside it. What would be too long to look through is cut off.
@@ -677,7 +677,6 @@ async function start() {
     sides = [new Side(0), new Side(1)];
     $('pictures').append(...sides.map(side => side.root));
     choose_pixels($('map'));
-    $('why').hidden = !told.explain;
     $('why').ontoggle = show_pixel;
     $('worst').onclick = () => compared !== null && choose(...worst_pixel());
     show_scale();

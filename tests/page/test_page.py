@@ -170,8 +170,7 @@ class PageTest(unittest.TestCase):
         adaptive = picture(scene("soft"), "-n", "q16", "-a", "2")
         self.assertEqual(self.bytes("A"), adaptive)
         self.assertEqual(self.figure("PSNR"), f"{psnr(adaptive, four):.1f} dB")
-        if os.path.exists("src/study/flip.hpp"):
-            self.assertGreater(float(self.figure("FLIP, mean")), 0)
+        self.assertGreater(float(self.figure("FLIP, mean")), 0)
         self.assertFalse(self.element("#samples-A").is_displayed())
         self.assertTrue(self.element("#threshold-A").is_displayed())
         self.assertTrue(self.element("#depth-A").is_displayed())
@@ -212,7 +211,6 @@ class PageTest(unittest.TestCase):
         self.wait("done")
         self.assertEqual(self.bytes("B"), picture(scene("balls")))
 
-    @unittest.skipUnless(os.path.exists("src/cli/explain.hpp"), "no qray explain")
     def test_why_a_pixel_has_its_colour(self):
         self.number("B", "double")
         self.element("summary").click()
