@@ -402,6 +402,38 @@ TYPED_TEST(MovingTest, TreesFollow)
     }
 }
 
+// Where one of two triangles that share corners was moved, the other's plane may be met anywhere: in floating point far
+// outside of the world, whose tree a ray from there must not leave.
+TYPED_TEST(MovingTest, RaysFromOutsideOfTheWorldMeetNothing)
+{
+    using N = TypeParam;
+    if constexpr (!N::is_fixed) {
+        constexpr Effects effects = [] {
+            Effects e;
+            e.sphere = e.flat_tree = e.moving = true;
+            return e;
+        }();
+        std::string balls;
+        for (int i = 0; i < 40; i++)
+            balls += "s " + text_of(i, i * i % 64, 0) + "0.5\n";
+        ASSERT_TRUE(loaded<N>(scene_text(any_view, balls), moving()));
+        const auto scene = storage<N>().template view<effects>();
+        ASSERT_GT(scene.entries.count, 0u);
+        const auto meets = [&](const Point<N>& origin, const Direction<N>& direction) {
+            Hit<N> hit;
+            return nearest(scene, Ray<N>{origin, direction, {Tag::none}, false}, hit);
+        };
+        const Point<N>& ball = scene.spheres[0].centre;
+        EXPECT_TRUE(meets({ball.x, ball.y, 60}, {0, 0, -1}));
+        for (const typename N::Length far : {typename N::Length(129), typename N::Length(300), typename N::Length(1e30)})
+            for (const typename N::Unit d : {typename N::Unit(-1), typename N::Unit(1)}) {
+                EXPECT_FALSE(meets({far, 0, 0}, {d, 0, 0})) << far;
+                EXPECT_FALSE(meets({0, -far, 0}, {0, d, 0})) << far;
+                EXPECT_FALSE(meets({0, 0, far}, {d, 0, 0})) << far;
+            }
+    }
+}
+
 // A polygon whose corners are not in one plane is met beside them by rays that are flat to it.
 TYPED_TEST(MovingTest, TreesFollowUnevenPolygons)
 {

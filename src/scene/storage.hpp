@@ -142,12 +142,9 @@ struct Storage {
     template <Effects E>
     Scene<N, E> view() const
     {
-        Scene<N, E> s{};
-        s.camera = camera;
+        Scene<N, E> s{.camera = camera, .background = background, .exposure = exposure};
         if constexpr (E.eye_surface)
             s.eye_surface.value = eye_surface;
-        s.background = background;
-        s.exposure = exposure;
         if constexpr (E.spawns()) {
             s.max_depth.value = max_depth;
             s.cutoff.value = cutoff;

@@ -34,6 +34,12 @@ struct TreeEntry {
     {
         return uint32_t{1} << 31 | static_cast<uint32_t>(kind) << 28 | (count - 1) << 24 | first;
     }
+    // Of the entry behind all, too: a walk must not begin there.
+    static constexpr bool out_of_reach(const Point<N>& p)
+    {
+        constexpr auto within = [](typename N::Length v) { return v > -127 && v < 127; };
+        return !(within(p.x) && within(p.y) && within(p.z));
+    }
     constexpr bool is_leaf() const { return link >> 31 != 0; }
     constexpr Kind kind() const { return static_cast<Kind>(link >> 28 & 7); }
     constexpr uint32_t first() const { return link & 0xffffff; }

@@ -103,6 +103,10 @@ QRAY_INLINE constexpr void for_each_candidate(const Scene<N, E>& scene, [[maybe_
             });
         });
     } else if constexpr (E.flat_tree) {
+        // Only where corners were moved that a triangle left behind shares does a ray begin there.
+        if constexpr (E.moving && !N::is_fixed)
+            if (TreeEntry<N>::out_of_reach(ray.origin))
+                return;
         const RejectRay<N> reject(ray);
         constexpr bool deep = has_lean<E> || E.moving; // a lean one keeps a normal
         ProjectedRay projected = deep ? ProjectedRay::of(ray) : ProjectedRay(ray);
