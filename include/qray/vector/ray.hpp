@@ -68,14 +68,18 @@ struct alignas(in_lanes<N> ? 8 : alignof(int16_t)) Rounded<N> { // in lanes to b
     int16_t x, y, z;
 };
 
+template <InParts N>
+QRAY_INLINE constexpr Point<N> lengths_of(const Rounded<N>& rounded)
+{
+    return {{rounded.x}, {rounded.y}, {rounded.z}};
+}
+
 // p as seen from the exact point.
 template <class N>
 QRAY_INLINE constexpr Point<N> from_exact(const Point<N>& p, [[maybe_unused]] const Rounded<N>& rounded)
 {
-    if constexpr (FixedLanes<N>)
+    if constexpr (WideFixed<N>)
         return p + lengths_of<N>(rounded);
-    else if constexpr (WideFixed<N>)
-        return p + Point<N>{{rounded.x}, {rounded.y}, {rounded.z}};
     else
         return p;
 }
@@ -83,10 +87,8 @@ QRAY_INLINE constexpr Point<N> from_exact(const Point<N>& p, [[maybe_unused]] co
 template <class N>
 QRAY_INLINE constexpr Point<N> from_rounded(const Point<N>& p, [[maybe_unused]] const Rounded<N>& rounded)
 {
-    if constexpr (FixedLanes<N>)
+    if constexpr (WideFixed<N>)
         return p - lengths_of<N>(rounded);
-    else if constexpr (WideFixed<N>)
-        return p - Point<N>{{rounded.x}, {rounded.y}, {rounded.z}};
     else
         return p;
 }
