@@ -425,7 +425,8 @@ TYPED_TEST(MovingTest, RaysFromOutsideOfTheWorldMeetNothing)
         };
         const Point<N>& ball = scene.spheres[0].centre;
         EXPECT_TRUE(meets({ball.x, ball.y, 60}, {0, 0, -1}));
-        for (const typename N::Length far : {typename N::Length(129), typename N::Length(300), typename N::Length(1e30)})
+        using Length = typename N::Length;
+        for (const Length far : {Length(129), Length(300), Length(1e30)})
             for (const typename N::Unit d : {typename N::Unit(-1), typename N::Unit(1)}) {
                 EXPECT_FALSE(meets({far, 0, 0}, {d, 0, 0})) << far;
                 EXPECT_FALSE(meets({0, -far, 0}, {0, d, 0})) << far;
