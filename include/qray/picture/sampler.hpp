@@ -107,7 +107,8 @@ template <class N, Effects E, class Count, class... Place>
 constexpr Sample<N> sample(const Scene<N, E>& scene, const Pencil<N>& at, Count& count, Place... place)
 {
     Rgb<N> c{}; // set apart: with its initialisation the M3 spills more registers
-    if constexpr (E.flat_tree) { // where the stack is deepest, the ray is not kept twice
+    // Where the stack is deepest, the ray is not kept twice; the M0 has too few registers for that but with a tree.
+    if constexpr (E.flat_tree || (E.spawns() && !E.tree && has_wide_multiply)) {
         Ray<N> ray = eye_ray(scene, at);
         c = trace<N, E, Ray<N>&>(scene, ray, count, place...);
     } else {
