@@ -53,7 +53,6 @@ struct Convert {
     }
     static Rgb<N> rgb(const Vec3d& c) { return {colour(c.x), colour(c.y), colour(c.z)}; }
 
-    static typename N::Scale inverse(typename N::Length r) { return inverse_of<N>(r); }
     // What is more than 0 stays so: 0^0 is 1, and 0 to any other power is 0.
     static typename N::Shine shine(double e)
     {

@@ -173,39 +173,24 @@ public:
     // Does an object in view span steps enough? Of a plane that has a pattern, what is nearest in view.
     void span(const Object& o)
     {
-        const bool endless = is_endless(o);
-        Vec3d middle;
-        double r = HUGE_VAL, away = 0;
-        if (endless) {
-            const Above from = lies_on(d, o, 0, d.view.from, HUGE_VAL);
-            const double height = from.height, along = -dot(from.outward, forward) * (height < 0 ? -1 : 1);
-            const double turned = acos(fmax(-1, fmin(1, along))) - half_diagonal();
-            away = fabs(height) / cos(fmax(0, turned));
-            middle = d.view.from + forward * away;
-            if (d.fills[o.fill].texture.kind == TextureKind::none || turned >= M_PI / 2 || away == 0
-                || away > frame.far + frame.radius)
+        if (is_endless(o)) {
+            if (d.fills[o.fill].texture.kind == TextureKind::none)
                 return;
-        } else {
-            Extent box;
-            add_object(box, d, o);
-            middle = box.middle();
-            r = length(box.high - box.low) / 2;
-            away = length(middle - d.view.from);
+            const Above from = lies_on(d, o, 0, d.view.from, HUGE_VAL);
+            const double side = from.height < 0 ? -1 : 1;
+            const double turned = acos(fmax(-1, fmin(1, -dot(from.outward, forward) * side))) - half_diagonal();
+            const double away = fabs(from.height) / cos(fmax(0, turned));
+            if (turned < M_PI / 2 && away != 0 && away <= frame.far + frame.radius)
+                span(o, d.view.from + forward * away, away, HUGE_VAL);
+            return;
         }
-        const Vec3d v = middle - d.view.from;
-        const double picture = 2 * half * away;
-        if (!endless
-            && (away <= r || r * d.view.height < picture / 2
-                || acos(fmax(-1, fmin(1, dot(v, forward) / away))) - asin(r / away) > half_diagonal()))
-            return;
-        const double error = fmax(fmax(across_view(middle, v), coarse(o) * step()), frame.pushed);
-        if (picture >= Steps<N>::picture * error)
-            return;
-        if (2 * r < picture)
-            lost.note({o.line, 0}, "a %s spans only %.3g steps of %.3g", name_of(o), 2 * r / error, error);
-        else
-            lost.note({o.line, 0}, "at a %s the picture spans only %.3g steps of %.3g", name_of(o), picture / error,
-                      error);
+        Extent box;
+        add_object(box, d, o);
+        const Vec3d middle = box.middle(), v = middle - d.view.from;
+        const double r = length(box.high - box.low) / 2, away = length(v);
+        if (away > r && r * d.view.height >= half * away
+            && acos(fmax(-1, fmin(1, dot(v, forward) / away))) - asin(r / away) <= half_diagonal())
+            span(o, middle, away, r);
     }
 
     // Which surfaces lie so close that what is between them is lost? `sorted` has room for all objects.
@@ -281,6 +266,20 @@ private:
                     above.near && !visit(Near{o, place, part, most, above}))
                     return;
         }
+    }
+
+    // Of a part of it of radius r, `away` from the eye.
+    void span(const Object& o, const Vec3d& middle, double away, double r)
+    {
+        const double picture = 2 * half * away;
+        const double error = fmax(fmax(across_view(middle, middle - d.view.from), coarse(o) * step()), frame.pushed);
+        if (picture >= Steps<N>::picture * error)
+            return;
+        if (2 * r < picture)
+            lost.note({o.line, 0}, "a %s spans only %.3g steps of %.3g", name_of(o), 2 * r / error, error);
+        else
+            lost.note({o.line, 0}, "at a %s the picture spans only %.3g steps of %.3g", name_of(o), picture / error,
+                      error);
     }
 
     // By how much an object may seem to lie beside where it is.

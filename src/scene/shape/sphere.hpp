@@ -39,7 +39,7 @@ struct Host<Sphere> : HostOfShape {
             return b.leave_out(o);
         const int fine = b.fine_for(o.ra, &Blocks::ball);
         const auto r = b.length(ldexp(o.ra, fine));
-        b.s.spheres.push() = {b.point(o.a), r, Convert<N>::inverse(r), fine, make_tag(place, o.fill),
+        b.s.spheres.push() = {b.point(o.a), r, inverse_of<N>(r), fine, make_tag(place, o.fill),
                               Convert<N>::rounded(b.frame.point(o.a), fine)};
     }
     template <class N>
